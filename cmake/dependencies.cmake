@@ -1,6 +1,8 @@
 # What Espalier stands on.
 find_package(TBB CONFIG REQUIRED)  # before OpenVDB, whose own FindTBB leaves half an export set behind
-find_path(OPENVDB_CMAKE_DIR FindOpenVDB.cmake REQUIRED PATHS ${CMAKE_SYSTEM_PREFIX_PATH} PATH_SUFFIXES
+cmake_path(CONVERT "$ENV{CMAKE_PREFIX_PATH}" TO_CMAKE_PATH_LIST prefixes)
+find_path(OPENVDB_CMAKE_DIR FindOpenVDB.cmake REQUIRED
+  PATHS ${CMAKE_PREFIX_PATH} ${prefixes} ${CMAKE_SYSTEM_PREFIX_PATH} PATH_SUFFIXES share/openvdb
   lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB lib/cmake/OpenVDB lib64/cmake/OpenVDB)
 list(APPEND CMAKE_MODULE_PATH ${OPENVDB_CMAKE_DIR})
 find_package(OpenVDB REQUIRED)
@@ -16,8 +18,8 @@ find_library(LZ4_LIBRARY lz4 REQUIRED)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
 find_path(SLEEF_INCLUDE_DIR sleef.h REQUIRED)
 find_library(SLEEF_LIBRARY sleef REQUIRED)
-find_path(EMBREE_INCLUDE_DIR embree3/rtcore.h REQUIRED)
-find_library(EMBREE_LIBRARY embree3 REQUIRED)
+find_path(EMBREE_INCLUDE_DIR NAMES embree3/rtcore.h embree4/rtcore.h REQUIRED)
+find_library(EMBREE_LIBRARY NAMES embree3 embree4 REQUIRED)
 
 if(ESPALIER_LOOK)
   find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMath

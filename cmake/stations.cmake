@@ -1,6 +1,6 @@
 # A station's sources as OBJECT libraries, because parts register themselves: a static archive would drop them without a
 # word. The folders named by <station>_GRIDS need OpenVDB and Eigen, and become a library of their own.
-set(geometry_GRIDS grids)
+set(geometry_GRIDS grids rays)
 set(environment_GRIDS canopy external markers neighbours optics processes rays roots shade shapes sky soil solutes water)
 
 # Eigen adds in the order of the source: vectors of another processor would add in another, and fuse.

@@ -52,9 +52,10 @@ name_of() { # FILE
     printf '%s' "${name//\//-}"
 }
 draw() { # NAME FILE NUMBER OPTIONS RENDER-OPTIONS
-    local run="$work/$1" picture="$work/$1.png" size=(--size 180x180) palette
+    local run="$work/$1" picture="$work/$1.png" size=(--size 180x180) colours=32 palette
     [[ $* != *" --size "* ]] || size=()  # what is thinner than a pixel is drawn larger and made smaller
-    palette="scale=180:180:flags=area,split[a][b];[a]palettegen=max_colors=32:stats_mode=full[p];[b][p]paletteuse=dither=none"
+    [[ $* != *" --light"* ]] || size+=(--samples 32) colours=64
+    palette="scale=180:180:flags=area,split[a][b];[a]palettegen=max_colors=$colours:stats_mode=full[p];[b][p]paletteuse=dither=none"
     "$espalier" run "$2" "${@:4:$3}" --every 1000000 --output "$run" --quiet 2>/dev/null
     "$espalier" render "$run" --output "$picture" "${size[@]}" --quiet "${@:4+$3}"
     ffmpeg -nostdin -loglevel error -y -i "$picture" -filter_complex "$palette" -fflags +bitexact "$pictures/$1.png"
@@ -70,32 +71,32 @@ pictures, and the studio's gallery has the same shelves. [Models](models.md) say
 PAGE
 
 shelf "Trees and shrubs"
-entry environments/tree.toml "Tree from a cloud of points" "Runions, Lane & Prusinkiewicz 2007"
-entry environments/self-organizing.toml "Self-organizing tree" "Palubicki et al. 2009" --set plant.0.define.YEARS=16
-entry models/species/balsam-fir.species "Balsam fir" "parameters of Weber & Penn 1995"
-entry models/species/black-oak.species "California black oak" "Weber & Penn 1995"
-entry models/species/black-tupelo.species "Black tupelo" "Weber & Penn 1995"
-entry models/species/coconut-palm.species "Coconut palm" "Weber & Penn 1995"
-entry models/species/european-larch.species "European larch" "parameters of Weber & Penn 1995"
-entry models/species/lombardy-poplar.species "Lombardy poplar" "parameters of Weber & Penn 1995"
-entry models/species/quaking-aspen.species "Quaking aspen" "Weber & Penn 1995"
-entry models/species/sassafras.species "Sassafras" "parameters of Weber & Penn 1995"
-entry models/species/weeping-willow.species "Weeping willow" "Weber & Penn 1995"
-entry environments/species/broadleaf.toml "Broadleaved tree by its age" "Lintermann & Deussen 1997"
-entry environments/species/palm.toml "Palm by its age" "Lintermann & Deussen 1997"
-entry environments/species/willow.toml "Weeping willow by its age" "Lintermann & Deussen 1997"
-entry models/trees/honda.l "Two branches at different angles" "Honda 1971"
+entry environments/tree.toml "Tree from a cloud of points" "Runions, Lane & Prusinkiewicz 2007" -- --light
+entry environments/self-organizing.toml "Self-organizing tree" "Palubicki et al. 2009" --set plant.0.define.YEARS=16 -- --light
+entry models/species/balsam-fir.species "Balsam fir" "parameters of Weber & Penn 1995" -- --light
+entry models/species/black-oak.species "California black oak" "Weber & Penn 1995" -- --light
+entry models/species/black-tupelo.species "Black tupelo" "Weber & Penn 1995" -- --light
+entry models/species/coconut-palm.species "Coconut palm" "Weber & Penn 1995" -- --light
+entry models/species/european-larch.species "European larch" "parameters of Weber & Penn 1995" -- --light
+entry models/species/lombardy-poplar.species "Lombardy poplar" "parameters of Weber & Penn 1995" -- --light
+entry models/species/quaking-aspen.species "Quaking aspen" "Weber & Penn 1995" -- --light
+entry models/species/sassafras.species "Sassafras" "parameters of Weber & Penn 1995" -- --light
+entry models/species/weeping-willow.species "Weeping willow" "Weber & Penn 1995" -- --light
+entry environments/species/broadleaf.toml "Broadleaved tree by its age" "Lintermann & Deussen 1997" -- --light
+entry environments/species/palm.toml "Palm by its age" "Lintermann & Deussen 1997" -- --light
+entry environments/species/willow.toml "Weeping willow by its age" "Lintermann & Deussen 1997" -- --light
+entry models/trees/honda.l "Two branches at different angles" "Honda 1971" -- --light
 entry models/trees/aono-kunii.l "Two constant angles" "Aono & Kunii 1984"
 entry models/trees/monopodial.l "Trees with one leading axis" "Prusinkiewicz & Lindenmayer 1990, figure 2.6" -- --size 360x360
 entry models/trees/sympodial.l "Trees whose apices fork" "Prusinkiewicz & Lindenmayer 1990, figure 2.7" -- --size 360x360
 entry models/trees/ternary.l "Three branches at every fork" "Prusinkiewicz & Lindenmayer 1990" --view models/trees/ternary.v
 entry models/trees/oppenheimer.l "Oppenheimer's fractal tree" "Oppenheimer 1986"
-entry models/trees/maple.l "Bark, saddles and roots" "Bloomenthal 1985" --view models/trees/maple.v -- --skin smooth
+entry models/trees/maple.l "Bark, saddles and roots" "Bloomenthal 1985" --view models/trees/maple.v -- --skin smooth --light
 entry models/trees/structured-particles.l "Structured particles" "Reeves & Blau 1985"
 entry models/trees/buds.l "Buds that die, rest or grow" "de Reffye et al. 1988" -- --size 360x360
-entry environments/buds/coffee.toml "Coffee by its buds" "after de Reffye et al. 1988"
-entry environments/buds/poplar.toml "Poplar by its buds" "after de Reffye et al. 1988"
-entry environments/buds/spruce.toml "Spruce by its buds" "after de Reffye et al. 1988"
+entry environments/buds/coffee.toml "Coffee by its buds" "after de Reffye et al. 1988" -- --light
+entry environments/buds/poplar.toml "Poplar by its buds" "after de Reffye et al. 1988" -- --light
+entry environments/buds/spruce.toml "Spruce by its buds" "after de Reffye et al. 1988" -- --light
 entry models/trees/growth-kinds.l "Kinds of growth" "Barthelemy & Caraglio 2007" -- --size 360x360
 entry models/trees/holton.l "Tree of strands" "Holton 1994"
 entry models/trees/ramification.l "Tree of a ramification matrix" "Viennot et al. 1989" -- --size 360x360
@@ -105,21 +106,21 @@ entry models/trees/strahler.l "Strahler numbers" "Strahler 1952"
 entry models/trees/tropisms.l "Tropisms" "" -- --size 360x360
 entry models/trees/twisted-stem.l "A stem with helical twist and taper" "Oppenheimer 1986"
 entry models/trees/unequal-flow.l "Growth by unequal flow" "Honda, Tomlinson & Fisher 1981"
-entry models/trees/weeping.l "Branches that bend" "Prusinkiewicz & Lindenmayer 1990, section 2.1" --view models/trees/weeping.v
-entry models/pgraph/broadleaf.pgraph "Broadleaved tree of any size" "Lintermann & Deussen 1997"
-entry models/pgraph/bush.pgraph "Bush of components" "Lintermann & Deussen 1997"
-entry models/pgraph/palm.pgraph "Palm" "Lintermann & Deussen 1997"
-entry models/pgraph/weeping-willow.pgraph "Weeping willow" "Lintermann & Deussen 1997"
-entry models/pgraph/wind-pine.pgraph "Mountain pine in the wind" "Lintermann & Deussen 1997"
-entry models/sdl/tree.sdl "Broad-leaved tree" "after Szemla 1999"
-entry models/sdl/spruce.sdl "Spruce" "Szemla 1999"
-entry models/sdl/palm.sdl "Palm" "after Szemla 1999"
-entry models/sdl/bush.sdl "Fractal bush" "after Szemla 1999"
-entry environments/wind.toml "Aspen in the wind" "Weber & Penn 1995"
-entry environments/life-of-a-tree.toml "The life of a tree" "" --steps 30
+entry models/trees/weeping.l "Branches that bend" "Prusinkiewicz & Lindenmayer 1990, section 2.1" --view models/trees/weeping.v -- --light
+entry models/pgraph/broadleaf.pgraph "Broadleaved tree of any size" "Lintermann & Deussen 1997" -- --light
+entry models/pgraph/bush.pgraph "Bush of components" "Lintermann & Deussen 1997" -- --light
+entry models/pgraph/palm.pgraph "Palm" "Lintermann & Deussen 1997" -- --light
+entry models/pgraph/weeping-willow.pgraph "Weeping willow" "Lintermann & Deussen 1997" -- --light
+entry models/pgraph/wind-pine.pgraph "Mountain pine in the wind" "Lintermann & Deussen 1997" -- --light
+entry models/sdl/tree.sdl "Broad-leaved tree" "after Szemla 1999" -- --light
+entry models/sdl/spruce.sdl "Spruce" "Szemla 1999" -- --light
+entry models/sdl/palm.sdl "Palm" "after Szemla 1999" -- --light
+entry models/sdl/bush.sdl "Fractal bush" "after Szemla 1999" -- --light
+entry environments/wind.toml "Aspen in the wind" "Weber & Penn 1995" -- --light
+entry environments/life-of-a-tree.toml "The life of a tree" "" --steps 30 -- --light
 entry environments/aono-kunii-field.toml "Tree between attractor and inhibitor" "Aono & Kunii 1984"
 grown_by environments/aono-kunii-field.toml models/environment/aono-kunii-field.l "Forks between attractors and inhibitors" "Aono & Kunii 1984"
-entry environments/towards-light.toml "Tree beside an awning" "Lintermann & Deussen 1997"
+entry environments/towards-light.toml "Tree beside an awning" "Lintermann & Deussen 1997" -- --light
 grown_by environments/towards-light.toml models/environment/towards-light.pgraph "Tree that bends towards the light" "Lintermann & Deussen 1997"
 entry models/environment/awning.l "Leaf of an awning" "" -- --elevation 35
 grown_by environments/self-organizing.toml models/colonization/self-organizing.l "Self-organizing tree: the model" "Palubicki et al. 2009"
@@ -248,6 +249,9 @@ entry environments/intercrop.toml "Maize and lupine in one soil" "Willey 1979; d
 entry environments/intercrop-maize.toml "Two maize plants" "Willey 1979; de Wit 1958" -- --field water:slice --no-legend
 entry environments/intercrop-lupine.toml "Two lupines" "Willey 1979; de Wit 1958" -- --field water:slice --no-legend
 entry environments/hydrotropism.toml "A root turns to water" "Jaffe, Takahashi & Biro 1985" -- --field water:slice --no-legend --azimuth 0 --elevation 5
+entry environments/plough-pan.toml "Roots above a plough pan" "Bengough et al. 2011" -- --elevation 3
+entry environments/dry-spell.toml "Roots after a dry spell" "Stasovski & Peterson 1991" -- --elevation 3
+entry environments/tree-roots.toml "Roots of a tree" "Köstler, Brückner & Bibelriether 1968" -- --elevation 30
 entry environments/split-pot.toml "Split roots" "Couvreur et al. 2012" -- --field roots:slice --no-legend --azimuth 0 --elevation 5
 entry environments/nitrate-in-rain.toml "Nitrate that rain washes down" "van Leer 1974; Barber 1995" --steps 24 -- --field nitrate:slice --no-legend
 entry environments/barley-layers.toml "Barley in layers of nitrate" "Drew 1975"
@@ -257,6 +261,9 @@ entry models/roots/maize.l "Maize roots" "Pagès, Jordan & Picard 1989"
 entry models/roots/wheat.l "Wheat roots" "Pagès, Jordan & Picard 1989"
 entry models/roots/lupine.l "Lupine roots" "Pagès, Jordan & Picard 1989"
 grown_by environments/hydrotropism.toml models/roots/hydrotropic.l "Root that turns to water" "Jaffe, Takahashi & Biro 1985"
+grown_by environments/plough-pan.toml models/roots/impeded.l "Roots in strong and cold soil" "Bengough et al. 2011"
+grown_by environments/dry-spell.toml models/roots/mortal.l "Roots that die in dry soil" "Stasovski & Peterson 1991"
+grown_by environments/tree-roots.toml models/roots/tree.l "Roots of a tree" "Köstler, Brückner & Bibelriether 1968"
 grown_by environments/split-pot.toml models/roots/split.l "Roots in two halves" "Pagès, Jordan & Picard 1989"
 grown_by environments/barley-layers.toml models/roots/barley.l "Barley root" "Drew 1975; Pagès et al. 1989"
 entry environments/root-2d.toml "Root that follows wet soil" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0

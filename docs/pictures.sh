@@ -34,6 +34,14 @@ grow hydraulic-lift environments/hydraulic-lift.toml
 for scene in drought-deep drought-shallow intercrop intercrop-maize intercrop-lupine split-pot; do
     grow "$scene" "environments/$scene.toml"
 done
+grow plough-pan environments/plough-pan.toml
+grow plough-pan-loose environments/plough-pan.toml --set environment.strength.file=soils/loose.csv
+grow plough-pan-summer environments/plough-pan.toml --set environment.temperature.file=soils/summer.csv
+for soil in plough-pan plough-pan-loose plough-pan-summer; do
+    render "$soil.png" "$soil" --size 260x360 --no-legend --scale-bar --elevation 3
+done
+grow dry-spell environments/dry-spell.toml
+grow dry-spell-wet environments/dry-spell.toml --set environment.head.file=soils/wet.csv
 grow hydrotropism environments/hydrotropism.toml
 grow split-wet environments/split-pot.toml --set environment.water.regions.0.initial.head=-100
 grow split-feddes environments/split-pot.toml --set 'environment.roots.model="feddes"'
@@ -47,6 +55,8 @@ grow forest-patch environments/forest-patch.toml --every 50
 grow lychnis models/herbs/lychnis.l
 
 render two-trees.png two-trees --size 640x480 --azimuth 20 --elevation 10
+grow willow models/species/weeping-willow.species --every 1000000
+render light-paths.png willow --size 640x480 --light --sun 60:35 --samples 48
 render two-roots.png two-roots --size 640x480 --field water:volume --azimuth 15 --elevation 8 --no-legend
 render topiary.png topiary --size 640x480 --azimuth 25 --elevation 10
 render root-2d.png root-2d --size 640x640 --field water:slice --time --scale-bar
@@ -205,6 +215,7 @@ with_palette view.png
     --output "$pictures/intercrop-plot.png"
 "$espalier" plot "$work/drought-deep" "$work/drought-shallow" --quantity roots.transpiration,roots.depth \
     --output "$pictures/drought-plot.png"
+"$espalier" plot "$work/dry-spell" "$work/dry-spell-wet" --quantity length,internodes --output "$pictures/dry-spell-plot.png"
 "$espalier" plot "$work/split-pot" "$work/split-wet" "$work/split-feddes" --quantity roots.transpiration,roots.collar \
     --output "$pictures/split-plot.png"
 "$espalier" plot "$work/two-trees" "$work/lone-tree" --per total --quantity organs,light.mean --dark \

@@ -3,7 +3,8 @@
    An axis of order o, 0 for the axes at the seed and the stem, approaches its final length: after t days it has
    LENGTH(o, t) = k (1 - exp(-r t / k)), k final length, r initial rate (Pages, Jordan & Picard 1989). Laterals stand
    SPACING(o) apart and emerge DELAY days after the tip has passed. Lengths, places and times do not depend on the length of
-   a step. Tips of laterals ask for nitrate: their time runs slower where there is little.
+   a step. Tips ask the soil: their time runs slower where it is not as good as it could be. A model may define what they
+   ask (ASK), what is answered (ANSWER) and the PACE of their time; else tips of laterals ask for nitrate.
 
    Modules
      A(w)        an axis that is to emerge in `w` days, where it stands (in the first step, made after the others, less DT)
@@ -19,14 +20,16 @@
 #define LENGTH(o, t) (FINAL(o) * (1 - exp(-RATE(o) * (t) / FINAL(o))))
 #define TIME(o, l) (-FINAL(o) / RATE(o) * log(1 - (l) / FINAL(o)))
 #define NEXT(o, l) ((floor((l) / SPACING(o) + 0.000001) + 1) * SPACING(o))
-#define PACE(o, c) ((o) == 0 ? 1 : LEAST + (1 - LEAST) * (c) / ((c) + HALF))
 #define GROWN(o, t) ((t) > 0 ? LENGTH(o, t) : 0)
+#ifndef ASK
 #define ASK ?nitrate(1000000)
+#define ANSWER ?nitrate(c)
+#define PACE(o) ((o) == 0 ? 1 : LEAST + (1 - LEAST) * (c) / ((c) + HALF))
+#endif
 
 A(w) : w > DT --> A(w - DT)
 A(w) --> !(WIDTH(0)) G(0, DT - w, 0, GROWN(0, DT - w)) ASK
-R(o, t, l) ?nitrate(c) --> G(o, t + DT * PACE(o, c), l, GROWN(o, t + DT * PACE(o, c))) ASK
-?nitrate(c) --> *
+R(o, t, l) ANSWER --> G(o, t + DT * PACE(o), l, GROWN(o, t + DT * PACE(o))) ASK
 
 decomposition
 maximum depth: 400

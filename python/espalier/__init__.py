@@ -6,11 +6,14 @@
 """
 
 from ._espalier import Error, Field, Module, ModuleString, PlantFrame, RunError, __version__
-from .looking import analyse, check, export, fit, plot, render, sweep, translate, tree
+from .conversions import add_conversions
+from .looking import analyse, check, export, fit, plot, render, share, sweep, translate, tree
 from .lpy import from_lpy
 from .recorded import Run, open
 from .scene import Model, Plant, Process, Scene, process, record
 from .world import Frame, Internodes, World
+
+add_conversions(Field)
 
 __all__ = [
     "Error",
@@ -38,6 +41,7 @@ __all__ = [
     "process",
     "record",
     "render",
+    "share",
     "sweep",
     "translate",
     "tree",

@@ -23,6 +23,25 @@ def png(what, **options):
         return render(what, pathlib.Path(folder) / "picture.png", **{"size": "480x360", **options}).read_bytes()
 
 
+def share(what, output, **options):
+    """Writes a run as one HTML page that can be turned and played in every browser: frames=20, title="Oaks".
+
+    A model or a scene is grown first. Returns the path.
+    """
+    with folder_for(what) as folder:
+        call_for_json("share", folder, output=output, **options)
+    return pathlib.Path(output)
+
+
+def html(what, height=420, **options):
+    """The page of share() as an element of a notebook's cell, which needs neither a server nor a network."""
+    with tempfile.TemporaryDirectory(prefix="espalier-") as folder:
+        page = share(what, pathlib.Path(folder) / "page.html", **{"frames": 60, **options}).read_text(encoding="utf-8")
+    style = f"width: 100%; height: {height}px; border: 0"
+    quoted = page.replace("&", "&amp;").replace('"', "&quot;")
+    return f'<iframe sandbox="allow-scripts" style="{style}" srcdoc="{quoted}"></iframe>'
+
+
 def export(run, output, **options):
     """Writes the last frame of a run, or those of step="all", as a file of another program; its extension says which.
 
@@ -106,6 +125,10 @@ class tree:
     def _repr_png_(self):
         with tempfile.TemporaryDirectory(prefix="espalier-") as scratch:
             return png(self.save_run(pathlib.Path(scratch) / "run"))
+
+    def _repr_html_(self):
+        with tempfile.TemporaryDirectory(prefix="espalier-") as scratch:
+            return html(self.save_run(pathlib.Path(scratch) / "run"))
 
 
 def _path_of(run):

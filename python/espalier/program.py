@@ -16,9 +16,11 @@ _PLACE = re.compile(r"^(?P<file>.+?):(?P<line>\d+):(?:(?P<column>\d+):)? ")
 
 
 def program():
-    """The path of the program: ESPALIER_PROGRAM, that of the build folder, or that of PATH. Raises Error if none is."""
-    built = pathlib.Path(__file__).parent.parent.parent / "espalier"
-    candidates = [os.environ.get("ESPALIER_PROGRAM"), built if built.is_file() else None, shutil.which("espalier")]
+    """The path of the program: ESPALIER_PROGRAM, that of the build folder, that which was installed with the module, or that
+    of PATH. Raises Error if none is."""
+    package = pathlib.Path(__file__).parent  # below a build folder, or PREFIX/lib/python3.11/site-packages
+    beside = [folder / "espalier" for folder in (package.parents[1], *(parent / "bin" for parent in package.parents[2:4]))]
+    candidates = [os.environ.get("ESPALIER_PROGRAM"), *filter(pathlib.Path.is_file, beside), shutil.which("espalier")]
     for path in candidates:
         if path:
             return str(path)

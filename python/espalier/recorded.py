@@ -6,6 +6,7 @@ import pathlib
 import numpy
 
 from . import _espalier
+from .conversions import add_conversions, file_to_vtk, to_pyvista
 
 
 class RecordedInternodes:
@@ -65,7 +66,13 @@ class RecordedFrame:
 
         return png(self._run, step=self.step)
 
+    def _repr_html_(self):
+        from .looking import html
 
+        return html(self._run, step=self.step)
+
+
+@add_conversions
 class RecordedField:
     """A field as it was recorded: values, float32 (nx, ny, nz); origin, its lower corner, and voxel, metres; unit."""
 
@@ -166,6 +173,20 @@ class Run:
         """The plants of a frame as the text of a multiscale tree graph, which openalea.mtg reads."""
         return self._exported("mtg", step)
 
+    def to_vtk(self, step=None):
+        """The plants of a frame as vtkPolyData: lines and polygons with all that the timeline keeps; default: the last."""
+        import re
+
+        steps = [frame.step for frame in self.frames]
+        if step is not None and step not in steps:
+            raise _espalier.Error(f"{self.folder}: there is no frame {step}")
+        files = re.findall(r'file="([^"]+)"', (self.folder / "plants.pvd").read_text(encoding="utf-8"))
+        return file_to_vtk(self.folder / files[-1 if step is None else steps.index(step)])
+
+    def to_pyvista(self, step=None):
+        """The same as pyvista.PolyData."""
+        return to_pyvista(self.to_vtk(step))
+
     def _exported(self, format, step):
         import tempfile
 
@@ -178,6 +199,11 @@ class Run:
         from .looking import png
 
         return png(self)
+
+    def _repr_html_(self):
+        from .looking import html
+
+        return html(self)
 
 
 def open(folder):

@@ -27,6 +27,11 @@ class Model(_espalier.Model):
 
         return png(self)
 
+    def _repr_html_(self):
+        from .looking import html
+
+        return html(self)
+
 
 def _read_model(path, text, defines):
     return Model(path, text, **defines)
@@ -94,6 +99,11 @@ class Scene:
         from .looking import png
 
         return png(self)
+
+    def _repr_html_(self):
+        from .looking import html
+
+        return html(self)
 
     @classmethod
     def of(cls, scene, seed=None):

@@ -94,6 +94,13 @@ class Frame:
             record(self._scene, folder, overwrite=True, steps=self.step)
             return png(folder)
 
+    def _repr_html_(self):
+        from .looking import html
+
+        with tempfile.TemporaryDirectory(prefix="espalier-") as folder:
+            record(self._scene, folder, overwrite=True, steps=self.step)
+            return html(folder)
+
 
 class World:
     """The world of a Scene, or of the file of a scene (.toml) or model. The same scene and seed give the same bytes."""

@@ -15,7 +15,15 @@ class InterruptsAt(es.Process):
             signal.raise_signal(signal.SIGINT)
 
 
-def test_an_interrupted_recording_leaves_its_frames_whole(tmp_path):
+@pytest.fixture
+def ctrl_c_is_heard():
+    # A shell starts its background jobs with SIGINT ignored.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_an_interrupted_recording_leaves_its_frames_whole(tmp_path, ctrl_c_is_heard):
     scene = es.Scene(plants=[es.Plant(es.Model(text=ROW))], processes={"end": InterruptsAt()})
     with pytest.raises(KeyboardInterrupt):
         es.record(scene, tmp_path / "run")

@@ -1,8 +1,14 @@
 """The commands that look, through the program."""
 
+import base64
+import html
+import json
+import math
 import pathlib
 import pickle
+import re
 import struct
+import zlib
 
 import pytest
 
@@ -37,6 +43,22 @@ def test_a_run_a_model_and_a_scene_show_themselves(run):
     assert size_of_png(picture.read_bytes()) == (64, 48)
 
 
+def test_a_shared_page_needs_nothing_else(run, tmp_path):
+    page = es.share(run, tmp_path / "bush.html", frames=3, title="</script><b>").read_text(encoding="utf-8")
+    recording = json.loads(re.search(r'<script type="application/json" id="recording">(.*?)</script>', page, re.DOTALL)[1])
+    assert recording["title"] == "</script><b>" and recording["steps"] == [0, 2, 4]
+    packet = zlib.decompress(base64.b64decode(recording["packets"][-1]), -15)
+    assert packet[:4] == b"ESP1" and struct.unpack_from("<I", packet, 8)[0] == 4
+    assert page.count("</script>") == 2 and "src=" not in page[: page.index("<script")] and "EspalierView.playRecording()" in page
+
+
+def test_cells_of_notebooks_show_the_page(run):
+    for shown in (run, run.frames[2], es.Model(text=BUSH)):
+        element = shown._repr_html_()
+        assert element.startswith('<iframe sandbox="allow-scripts"') and element.count('"') == 6
+        assert "EspalierView.playRecording()" in html.unescape(element)
+
+
 def test_an_export_holds_the_last_frame(run, tmp_path):
     text = es.export(run, tmp_path / "bush.ply", sides=3).read_bytes()
     assert text.startswith(b"ply")
@@ -64,6 +86,21 @@ def test_a_mistake_in_a_command_has_its_place(tmp_path):
     with pytest.raises(es.Error, match="--frob") as caught:
         es.check(file, frob=1)
     assert caught.value.line is None
+
+
+def test_a_fit_finds_the_parameters_of_the_marks(tmp_path):
+    model = tmp_path / "fork.l"
+    model.write_text("#define R 0.5\n#define ANGLE 20\nlsystem: fork\nderivation length: 3\naxiom: A(1)\n"
+                     "A(l) --> F(l)[+(ANGLE)A(l*R)][-(ANGLE)A(l*R)]\nendlsystem\n")
+    radians = 35 * 3.141592653589793 / 180
+    rows = ["axis,x,y", "0,0,0", "0,0,1"]
+    for axis, side in ((1, -1), (2, 1)):
+        rows += [f"{axis},0,1", f"{axis},{side * 0.8 * math.sin(radians)},{1 + 0.8 * math.cos(radians)}"]
+    marks = tmp_path / "marks.csv"
+    marks.write_text("\n".join(rows) + "\n")
+    found = es.fit(model, marks, parameter=["R", "ANGLE"], steps=2)["parameters"]
+    assert found["R"]["value"] == pytest.approx(0.8, abs=1e-5)
+    assert found["ANGLE"]["value"] == pytest.approx(35, abs=1e-3)
 
 
 def test_a_sweep_is_a_table_with_a_row_a_run(tmp_path):

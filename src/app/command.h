@@ -25,6 +25,9 @@ public:
     Command(const Command&) = delete;
     Command& operator=(const Command&) = delete;
 
+    /// Adds the options that stand in files and are only read when the command is parsed.
+    virtual void add_options_of_files() {}
+
     /// Returns the exit code. Throws UserError and RunError.
     virtual int run() = 0;
 

@@ -4,7 +4,7 @@
 
 #include "base/platform.h"
 #include "base/text.h"
-#include "command.h"
+#include "command_line.h"
 #include "looking_half.h"
 
 #include <fmt/format.h>
@@ -66,7 +66,7 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
     const std::string name = command == &program ? "espalier" : "espalier " + command->get_name();
     std::vector<std::string> options, commands;
     for (const CLI::Option* option : command->get_options()) options.push_back(option->get_name());
-    for (const CLI::App* subcommand : command->get_subcommands({})) commands.push_back(subcommand->get_name());
+    for (const CLI::App* subcommand : shown_commands(*command)) commands.push_back(subcommand->get_name());
 
     const std::string word = unexpected(program);
     std::string message = error.what();
@@ -92,20 +92,6 @@ int run_whole(Command& command) {
     }
     return code;
 }
-
-/// The program's options and the commands that have registered themselves by now.
-struct CommandLine {
-    CLI::App program{"Espalier grows plants from L-systems in a simulated environment, and records their growth.",
-                     "espalier"};
-    std::vector<std::unique_ptr<Command>> commands;
-
-    CommandLine() {
-        program.set_version_flag("--version", ESPALIER_VERSION);
-        program.require_subcommand(1);
-        program.footer("`espalier COMMAND --help` explains a command, with examples.");
-        for (const auto& [place, make] : command_makers()) commands.push_back(make(program));
-    }
-};
 
 bool grows(const CommandLine& line, std::string_view word) {
     const std::vector<const CLI::App*> commands = std::as_const(line.program).get_subcommands({});

@@ -109,6 +109,17 @@ void read_parameters(FrameGeometry& geometry, const VtkXmlFile& file, const XmlE
     }
 }
 
+/// From "light.absorbed: mol", one for each; "1" is no unit.
+std::map<std::string, std::string> read_units(const VtkXmlFile& file) {
+    std::map<std::string, std::string> units;
+    for (const std::string& text : file.texts("organ_units")) {
+        const std::size_t colon = text.rfind(": ");
+        if (colon == std::string::npos) continue;
+        if (std::string unit = text.substr(colon + 2); unit != "1") units[text.substr(0, colon)] = std::move(unit);
+    }
+    return units;
+}
+
 Column<std::uint16_t> read_looks(const VtkXmlFile& file, const XmlElement& section, std::string_view name,
                                  std::size_t count) {
     if (!VtkXmlFile::find(section, name)) return Column<std::uint16_t>(count, std::uint16_t{0});
@@ -147,6 +158,7 @@ FrameGeometry read_geometry(const std::filesystem::path& path) {
     geometry.textures = read_looks(file, of_cells, "texture", cells);
     geometry.back_colours = read_looks(file, of_cells, "back_colour", cells);
     read_parameters(geometry, file, of_points);
+    geometry.units = read_units(file);
     const auto named = [&](std::uint16_t texture) { return texture == 0 || texture < geometry.texture_files.size(); };
     if (!std::all_of(geometry.textures.begin(), geometry.textures.end(), named)) file.fail("a texture has no file");
     return geometry;

@@ -1,3 +1,5 @@
+// POSIX; platform_windows.cpp is for Windows.
+#ifndef _WIN32
 #include "base/platform.h"
 
 #include <algorithm>
@@ -22,6 +24,9 @@
 #include <utility>
 #ifdef __GLIBC__
 #include <malloc.h>
+#endif
+#ifdef __APPLE__
+#include <mach-o/dyld.h>
 #endif
 
 extern char** environ;
@@ -102,6 +107,27 @@ int code_of(int status) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+// Linux says with every call what macOS says once of a socket.
+#ifdef __APPLE__
+constexpr int without_signal = 0;
+
+bool connected_pair(int (&ends)[2]) {
+    if (::socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0) return false;
+    for (const int end : ends) {
+        const int on = 1;
+        ::fcntl(end, F_SETFD, FD_CLOEXEC);
+        ::setsockopt(end, SOL_SOCKET, SO_NOSIGPIPE, &on, sizeof on);
+    }
+    return true;
+}
+#else
+constexpr int without_signal = MSG_NOSIGNAL;
+
+bool connected_pair(int (&ends)[2]) {
+    return ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0;
+}
+#endif
+
 [[noreturn]] void fail(int error) {
     throw std::system_error(error, std::generic_category());
 }
@@ -168,7 +194,7 @@ std::error_code OpenFile::close() {
 
 std::error_code connect(OpenFile& ours, OpenFile& theirs) {
     int ends[2];
-    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return last_error();
+    if (!connected_pair(ends)) return last_error();
     theirs.number_ = ends[0];
     ours.number_ = ends[1];
     return {};
@@ -176,7 +202,7 @@ std::error_code connect(OpenFile& ours, OpenFile& theirs) {
 
 std::error_code send(const OpenFile& connection, std::string_view bytes) {
     while (!bytes.empty()) {
-        const ssize_t sent = ::send(connection.number(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+        const ssize_t sent = ::send(connection.number(), bytes.data(), bytes.size(), without_signal);
         if (sent < 0 && errno == EINTR) continue;
         if (sent < 0) return last_error();
         bytes.remove_prefix(static_cast<std::size_t>(sent));
@@ -190,7 +216,8 @@ bool converse(const OpenFile& connection, std::string_view& outgoing, std::strin
     pollfd ready{connection.number(), wanted, 0};
     if (::poll(&ready, 1, static_cast<int>(patience.count())) <= 0) return true;
     if (ready.revents & POLLOUT) {
-        const ssize_t sent = ::send(connection.number(), outgoing.data(), outgoing.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+        const ssize_t sent =
+            ::send(connection.number(), outgoing.data(), outgoing.size(), without_signal | MSG_DONTWAIT);
         if (sent > 0) outgoing.remove_prefix(static_cast<std::size_t>(sent));
     }
     if (!(ready.revents & (POLLIN | POLLHUP | POLLERR))) return true;
@@ -288,7 +315,13 @@ int process_number() {
 
 fs::path program_file() {
     std::error_code ignored;
+#ifdef __APPLE__
+    std::array<char, 4096> name{};
+    std::uint32_t size = name.size();
+    return ::_NSGetExecutablePath(name.data(), &size) == 0 ? fs::canonical(name.data(), ignored) : fs::path();
+#else
     return fs::read_symlink("/proc/self/exe", ignored);
+#endif
 }
 
 void occupy_standard_streams() {
@@ -426,3 +459,4 @@ void* function_of(void* library, const char* name) {
 }
 
 }  // namespace espalier::platform
+#endif

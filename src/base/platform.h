@@ -1,4 +1,5 @@
-// What the program asks of the operating system beyond the standard library. Only platform.cpp calls POSIX.
+// What the program asks of the operating system beyond the standard library. Only platform.cpp calls POSIX, and
+// only platform_windows.cpp Windows.
 #pragma once
 
 #include <chrono>

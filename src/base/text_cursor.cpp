@@ -1,9 +1,9 @@
 #include "base/text_cursor.h"
 
 #include "base/characters.h"
+#include "base/number.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -41,7 +41,7 @@ std::optional<double> TextCursor::exact_number() {
     const std::size_t first = digits.substr(sign).starts_with('.') ? sign + 1 : sign;
     if (first >= digits.size() || !is_digit(digits[first])) return std::nullopt;
     double value = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const auto [end, error] = read_number(digits.data(), digits.data() + digits.size(), value);
     if (error != std::errc()) return std::nullopt;
     at_ += std::size_t(end - rest().data());
     return value;
@@ -52,7 +52,7 @@ std::optional<int> TextCursor::integer() {
     if (digits.starts_with('+')) digits.remove_prefix(1);
     if (digits.starts_with('-') && digits.data() != rest().data()) return std::nullopt;
     int value = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const auto [end, error] = read_number(digits.data(), digits.data() + digits.size(), value);
     if (error != std::errc()) return std::nullopt;
     at_ += std::size_t(end - rest().data());
     return value;

@@ -155,7 +155,7 @@ function curvesOf(statistics: Statistics, name: string, steps: number[], pinned:
   return plants.map((which, index) => {
     const rows = statistics.rows.filter((row) => (row[plant] ?? 0) === which);
     const values = new Map(rows.map((row) => [Number(row[0]), typeof row[at] === "number" ? row[at] : null]));
-    const label = plants.length === 1 ? name.replaceAll("_", " ") : String(rows[0][names] ?? `plant ${which}`);
+    const label = plants.length === 1 ? name.replaceAll("_", " ") : String(rows[0]?.[names] ?? `plant ${which}`);
     return {
       name: pinned ? `${label}, pinned` : label,
       dashed: pinned,

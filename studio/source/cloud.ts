@@ -1,5 +1,5 @@
 /** Shows the attraction points that a tree will colonize, while a slider moves that changes them. */
-import type { Field, PlantScene } from "./view/index.js";
+import { sameBox, sameVector, type Field, type PlantScene } from "./view/index.js";
 import type { Studio } from "./state.js";
 
 const stays = 1500; // milliseconds behind the last move
@@ -60,6 +60,5 @@ export class CloudLook {
 }
 
 function isSame(a: Field, b: Field): boolean {
-  const box = (field: Field) => [...field.size, ...field.lower, ...field.upper].join();
-  return box(a) === box(b) && a.values.every((value, index) => value === b.values[index]);
+  return sameVector(a.size, b.size) && sameBox(a, b) && a.values.every((value, index) => value === b.values[index]);
 }

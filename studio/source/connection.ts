@@ -16,6 +16,8 @@ export interface ConnectionEvents {
   state: (state: ConnectionState, tryAgainIn: number) => void;
   said: (message: Said) => void;
   binary: (message: BinaryMessage) => void;
+  /** Whether a reply is outstanding. */
+  asks: (asks: boolean) => void;
   /** A binary message that cannot be understood. */
   broken: (why: string) => void;
 }
@@ -62,7 +64,9 @@ export class Connection {
       return Promise.reject(new RequestError("There is no connection to the studio's program."));
     const id = this.next++;
     socket.send(JSON.stringify({ ...fields, do: name, id }));
-    return new Promise((resolve, reject) => this.waiting.set(id, { resolve, reject }));
+    const reply = new Promise<Requests[Name]["get"]>((resolve, reject) => this.waiting.set(id, { resolve, reject }));
+    this.events.asks(true);
+    return reply;
   }
 
   /** A file that a reply named. */
@@ -87,6 +91,7 @@ export class Connection {
     this.socket = null;
     for (const { reject } of this.waiting.values()) reject(new RequestError("The connection to the studio's program was lost."));
     this.waiting.clear();
+    this.events.asks(false);
     if (refused !== null) {
       this.why = refused;
       this.become("refused");
@@ -123,6 +128,7 @@ export class Connection {
   private answer(message: { reply: number; error?: string }): void {
     const waiting = this.waiting.get(message.reply);
     this.waiting.delete(message.reply);
+    this.events.asks(this.waiting.size > 0);
     if (message.error !== undefined) waiting?.reject(new RequestError(message.error));
     else waiting?.resolve(message as never);
   }

@@ -84,12 +84,13 @@ export class Exporting {
 
   /** A file that needs others comes with them, at the places where it looks for them. */
   private async take(files: HandedFile[]): Promise<void> {
-    const blobs = await Promise.all(files.map(({ number }) => this.studio.connection.file(number)));
-    if (files.length === 1) download(blobs[0], files[0].name);
-    else {
-      const entries = files.map(({ name }, index) => ({ name, blob: blobs[index] }));
-      download(await zip(entries), `${files[0].name.replace(/\.\w+$/, "")}.zip`);
-    }
+    const entries = await Promise.all(
+      files.map(async ({ name, number }) => ({ name, blob: await this.studio.connection.file(number) })),
+    );
+    const [first] = entries;
+    if (!first) return;
+    if (entries.length === 1) download(first.blob, first.name);
+    else download(await zip(entries), `${first.name.replace(/\.\w+$/, "")}.zip`);
     this.studio.tell("note", `Exported ${files.map(({ name }) => name).join(", ")}.`);
   }
 }

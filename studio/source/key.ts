@@ -2,8 +2,8 @@
 
 /** The key that an address has, or that is given alone; "" if there is none. */
 export function keyIn(text: string): string {
-  const named = /[#&]token=([0-9a-f]+)/i.exec(text);
-  return named ? named[1] : (/^\s*([0-9a-f]{32})\s*$/i.exec(text)?.[1] ?? "");
+  const found = /[#&]token=([0-9a-f]+)/i.exec(text) ?? /^\s*([0-9a-f]{32})\s*$/i.exec(text);
+  return found?.[1] ?? "";
 }
 
 export function keepKey(key: string): void {

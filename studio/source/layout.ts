@@ -103,49 +103,50 @@ export interface Tab {
 /** Panels of which one shows, chosen by tabs. */
 export class Tabs {
   readonly element: HTMLElement;
-  private readonly buttons: HTMLButtonElement[];
+  private readonly tabs: (Tab & { button: HTMLButtonElement })[];
 
   constructor(
     label: string,
-    private readonly tabs: Tab[],
+    tabs: readonly [Tab, ...Tab[]],
     private readonly key: string,
   ) {
-    this.buttons = tabs.map(({ name }) =>
-      h("button", "tab", { type: "button", role: "tab", onclick: () => this.show(name) }, name),
-    );
-    const bar = h("div", "tabs", { role: "tablist", "aria-label": label }, ...this.buttons);
+    this.tabs = tabs.map((tab) => {
+      const button = h("button", "tab", { type: "button", role: "tab", onclick: () => this.show(tab.name) }, tab.name);
+      tab.content.setAttribute("role", "tabpanel");
+      tab.content.setAttribute("aria-label", tab.name);
+      return { ...tab, button };
+    });
+    const bar = h("div", "tabs", { role: "tablist", "aria-label": label }, ...this.tabs.map(({ button }) => button));
     bar.addEventListener("keydown", (event) => this.step(event));
-    for (const { name, content } of tabs) {
-      content.setAttribute("role", "tabpanel");
-      content.setAttribute("aria-label", name);
-    }
     this.element = h("div", "tabbed", {}, bar, ...tabs.map(({ content }) => content));
     this.show(remembered(key, tabs[0].name));
   }
 
+  /** A name that is no tab shows the first one. */
   show(name: string): void {
-    const chosen = this.tabs.some((tab) => tab.name === name) ? name : this.tabs[0].name;
-    this.tabs.forEach((tab, index) => {
-      tab.content.hidden = tab.name !== chosen;
-      this.buttons[index].setAttribute("aria-selected", String(tab.name === chosen));
-      this.buttons[index].tabIndex = tab.name === chosen ? 0 : -1;
-    });
-    remember(this.key, chosen);
+    const chosen = this.tabs.find((tab) => tab.name === name) ?? this.tabs[0];
+    for (const tab of this.tabs) {
+      tab.content.hidden = tab !== chosen;
+      tab.button.setAttribute("aria-selected", String(tab === chosen));
+      tab.button.tabIndex = tab === chosen ? 0 : -1;
+    }
+    remember(this.key, chosen?.name ?? name);
   }
 
   /** Shows or hides a tab whose panel may have nothing to show. */
   offer(name: string, offered: boolean): void {
-    const index = this.tabs.findIndex((tab) => tab.name === name);
-    this.buttons[index].hidden = !offered;
-    if (!offered && this.buttons[index].getAttribute("aria-selected") === "true") this.show(this.tabs[0].name);
+    const tab = this.tabs.find((one) => one.name === name);
+    if (!tab) return;
+    tab.button.hidden = !offered;
+    if (!offered && tab.button.getAttribute("aria-selected") === "true") this.show("");
   }
 
   private step(event: KeyboardEvent): void {
     const by = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
     if (by === 0) return;
-    const at = this.buttons.indexOf(document.activeElement as HTMLButtonElement);
-    const next = this.buttons[(at + by + this.buttons.length) % this.buttons.length];
-    next.focus();
-    next.click();
+    const from = this.tabs.findIndex(({ button }) => button === document.activeElement);
+    const next = this.tabs[(from + by + this.tabs.length) % this.tabs.length];
+    next?.button.focus();
+    next?.button.click();
   }
 }

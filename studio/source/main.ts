@@ -11,6 +11,7 @@ import { Messages } from "./messages.js";
 import { PickPanel } from "./pick.js";
 import { SettingsPanel } from "./settings.js";
 import { hasModel, openLink } from "./links.js";
+import { tellReadiness } from "./readiness.js";
 import { Studio } from "./state.js";
 import { StatusLine } from "./status.js";
 import { Timeline } from "./timeline.js";
@@ -59,6 +60,7 @@ async function openAddress(studio: Studio): Promise<boolean> {
 function start(): void {
   const studio = new Studio(takeKey());
   useTheme(studio);
+  tellReadiness(studio);
   const changes = new Changes(studio);
   const layout = new Layout();
   const timeline = new Timeline(studio);
@@ -114,9 +116,6 @@ function start(): void {
     void openAddress(studio).then((opened) => {
       if (!opened && !studio.opened) void gallery.show();
     });
-  });
-  studio.on("told", (growth) => {
-    document.body.dataset.told = String(growth ?? "");
   });
   // Another address in the same tab.
   window.addEventListener("hashchange", () => {

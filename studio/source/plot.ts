@@ -1,5 +1,6 @@
 /** Charts over steps, drawn by uPlot in the colours of the theme. */
 import uPlot from "uplot";
+import { at } from "./lists.js";
 
 export interface Curve {
   name: string;
@@ -68,7 +69,7 @@ export function plotOverSteps(place: HTMLElement, steps: number[], curves: Curve
         { label: "step" },
         ...curves.map((curve, index): uPlot.Series => ({
           label: curve.name,
-          stroke: themeColour(colours[(curve.colour ?? index) % colours.length]),
+          stroke: themeColour(at(colours, (curve.colour ?? index) % colours.length)),
           width: curve.dashed ? 1.5 : 2,
           ...(curve.dashed ? { dash: [6, 4] } : {}),
           points: { show: steps.length < 3 },
@@ -81,7 +82,7 @@ export function plotOverSteps(place: HTMLElement, steps: number[], curves: Curve
   );
   plot.over.addEventListener("click", () => {
     const index = plot.cursor.idx;
-    if (index !== null && index !== undefined) options.clicked(steps[index]);
+    if (index !== null && index !== undefined) options.clicked(at(steps, index));
   });
   return plot;
 }

@@ -14,7 +14,7 @@ interface Row {
 function partsOf({ label, name }: Setting): [string, string] {
   const at = label.indexOf(": ");
   const own = (at < 0 ? label : label.slice(0, at)) || name;
-  return [own[0].toUpperCase() + own.slice(1), at < 0 ? "" : label.slice(at + 2)];
+  return [own.charAt(0).toUpperCase() + own.slice(1), at < 0 ? "" : label.slice(at + 2)];
 }
 
 type Send = (text: string | null, lasting: boolean) => void;

@@ -36,6 +36,10 @@ interface Events {
   progress: Progress;
   /** The server has told a page that has greeted all that there is; the growth that it told. */
   told: number | null;
+  /** Whether the server owes an answer. */
+  asks: boolean;
+  /** Whether a text that is being typed is no lasting change yet. */
+  unsent: boolean;
   packet: Packet;
   shapes: Shapes;
   pictures: PictureSource[];
@@ -86,6 +90,7 @@ export class Studio {
       state: (state) => this.connected(state),
       said: (message) => this.hear(message),
       binary: (message) => this.take(message),
+      asks: (asks) => this.emit("asks", asks),
       broken: (why) => this.tell("error", `${why} Page and program are of different versions: load the page again.`),
     });
     this.frames = new Frames(this);
@@ -216,7 +221,7 @@ export class Studio {
   }
 
   private fetchPictures(files: (number | null)[], reliefs: (number | null)[]): void {
-    this.pictures = files.map((file, i) => ({ colours: this.fileOf(file), normals: this.fileOf(reliefs[i]) }));
+    this.pictures = files.map((file, i) => ({ colours: this.fileOf(file), normals: this.fileOf(reliefs[i] ?? null) }));
     this.emit("pictures", this.pictures);
   }
 

@@ -1,8 +1,10 @@
 /** The picture with what belongs to it: colours and their legend, fields, ground, pictures and films. */
 import { download, fillSlider, h, iconButton, remember, remembered, setLabel, short, whole } from "./elements.js";
 import {
+  type Axis,
   mapGradient,
   PlantScene,
+  sameVector,
   steer,
   themes,
   triangleCount,
@@ -11,6 +13,7 @@ import {
   type FieldLook,
   type Packet,
 } from "./view/index.js";
+import { at } from "./lists.js";
 import type { AuthorView } from "./protocol.js";
 import { errorText, type Studio } from "./state.js";
 import type { Timeline } from "./timeline.js";
@@ -103,7 +106,7 @@ export class Viewport {
     this.hasAuthorLight = Boolean(view?.towards_light ?? view?.background);
     this.scene.setAuthor({
       // Where the file says nothing, the eye stands at 0 0 1.
-      towardsEye: eye && String(eye) !== "0,0,1" ? eye : null,
+      towardsEye: sameVector(eye, [0, 0, 1]) ? null : eye,
       towardsLight: view?.towards_light ?? null,
       background: view?.background ?? null,
     });
@@ -213,7 +216,7 @@ export class Viewport {
 
   private paintOrder(packet: Packet | null): void {
     let highest = 1;
-    if (packet) for (let i = 4; i < packet.internodes.length; i += 6) highest = Math.max(highest, packet.internodes[i] >>> 24);
+    if (packet) for (let i = 4; i < packet.internodes.length; i += 6) highest = Math.max(highest, at(packet.internodes, i) >>> 24);
     this.scene.colourBy("order", [0, highest]);
     this.drawLegend("order of branching", 0, highest, "");
   }
@@ -303,7 +306,7 @@ export class Viewport {
   }
 
   private buildFieldTools(): void {
-    const kinds: [string, FieldLook["mode"], number][] = [
+    const kinds: readonly [string, FieldLook["mode"], Axis][] = [
       ["slice across y", "slice", 1],
       ["slice across x", "slice", 0],
       ["slice across z", "slice", 2],
@@ -314,7 +317,7 @@ export class Viewport {
     const place = h("input", "", { type: "range", min: 0, max: 1, step: 0.005, value: 0.5 });
     const update = () => {
       fillSlider(place);
-      const [, kind, axis] = kinds[mode.selectedIndex];
+      const [, kind, axis] = at(kinds, mode.selectedIndex);
       this.fieldLook = { mode: kind, axis, at: Number(place.value) };
       place.hidden = kind === "cloud";
       setLabel(place, kind === "surface" ? "Value on the surface" : "Place of the slice");

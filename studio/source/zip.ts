@@ -1,4 +1,5 @@
 /** Several files as one, as they are (PKWARE's APPNOTE 6.3.10, method 0). */
+import { at } from "./lists.js";
 
 export interface ZipEntry {
   name: string;
@@ -13,7 +14,7 @@ const crcTable = Uint32Array.from({ length: 256 }, (_, byte) => {
 
 function crc32(bytes: Uint8Array): number {
   let crc = -1;
-  for (const byte of bytes) crc = (crc >>> 8) ^ crcTable[(crc ^ byte) & 255];
+  for (const byte of bytes) crc = (crc >>> 8) ^ at(crcTable, (crc ^ byte) & 255);
   return ~crc >>> 0;
 }
 

@@ -40,6 +40,19 @@ export async function told(page) {
   await page.waitForFunction(() => document.body.dataset.told !== undefined);
 }
 
+/** Until the program has all that was changed here, and has grown it to its end: its last step, or the one that is looked at. */
+export async function grown(page) {
+  await page.waitForFunction(() => {
+    const waits = ["asks", "unsent", "behind"].some((name) => document.body.hasAttribute(`data-${name}`));
+    return !waits && document.querySelector(".status").dataset.state === "done";
+  });
+}
+
+/** Until the program has answered all that this page has asked. */
+export async function answered(page) {
+  await page.waitForFunction(() => !document.body.hasAttribute("data-asks"));
+}
+
 /** Until the picture is as it will stay: drawn in its finest, with the limbs that were asked for. */
 export async function rests(page) {
   const frames = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));

@@ -4,7 +4,7 @@ import { createHash } from "node:crypto";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { after, before, describe, test } from "node:test";
-import { openBrowser, openPage, rests, shot, told } from "./browser.mjs";
+import { grown as grownOn, openBrowser, openPage, rests, shot, told } from "./browser.mjs";
 import { startProgram, workFolder } from "./program.mjs";
 
 const programPath = resolve(process.argv[2] ?? "build/release/espalier");
@@ -65,11 +65,10 @@ describe("editors of side files", () => {
   const text = () => page.evaluate(() => document.querySelector(".cm-content").innerText);
   /** A digest of the picture once it rests and its limbs are drawn as they are to be. */
   const picture = async () => {
-    await page.waitForTimeout(300); // limbs that bark makes are asked for a moment after the packet has come
     await rests(page);
     return createHash("sha1").update(await canvas().screenshot()).digest("hex");
   };
-  const grown = () => page.waitForFunction(() => document.querySelector(".status").dataset.state === "done");
+  const grown = () => grownOn(page);
   const open = async (name) => {
     await page.getByRole("button", { name: "Gallery", exact: true }).click();
     await page.getByRole("tab", { name: "My files" }).click();
@@ -80,7 +79,6 @@ describe("editors of side files", () => {
   const tab = (name) => page.getByRole("tab", { name }).click();
   const undo = async () => {
     await page.getByRole("button", { name: /^Undo: / }).click();
-    await page.waitForTimeout(500);
     await grown();
   };
   const saved = async (name) => {
@@ -126,7 +124,6 @@ describe("editors of side files", () => {
     await page.mouse.down();
     await page.mouse.move(point.x + 44, point.y - 46, { steps: 6 });
     await page.mouse.up();
-    await page.waitForTimeout(400);
     await grown();
     assert.notEqual(await text(), words);
     assert.notEqual(await picture(), before);
@@ -167,7 +164,6 @@ describe("editors of side files", () => {
     await page.getByLabel("light: where it comes from, infinitely far away x").fill("-2");
     await page.keyboard.press("Enter");
     await page.locator("input[aria-label='background color']").fill("#336699");
-    await page.waitForTimeout(500);
     await grown();
     assert.match(await text(), /light: V -2 1 0/);
     assert.match(await text(), /background color: 0\.2 0\.4 0\.6/);
@@ -182,7 +178,7 @@ describe("editors of side files", () => {
     await page.getByRole("button", { name: /Take "angle increment" out/ }).click();
     await page.getByRole("button", { name: /Take "background color" out/ }).click();
     await page.getByRole("button", { name: "Remove light" }).click();
-    await page.waitForTimeout(400);
+    await grown();
     assert.equal((await text()).trim(), words.trim());
   });
 
@@ -264,7 +260,6 @@ describe("editors of side files", () => {
 
   test("limbs wear bark, labels show, and a smooth skin is made on demand", async () => {
     await open("mapped.toml");
-    await page.waitForTimeout(1500);
     const tubes = await picture();
     await shot(page, "bark");
     const look = page.getByRole("button", { name: /^What is drawn/ });
@@ -275,7 +270,6 @@ describe("editors of side files", () => {
     await shot(page, "skin");
     await look.click();
     await page.getByRole("menuitemcheckbox", { name: /Smooth skin/ }).click();
-    await page.waitForTimeout(600);
     assert.equal(await picture(), tubes);
     await look.click();
     await page.getByRole("menuitemcheckbox", { name: /Labels/ }).click();

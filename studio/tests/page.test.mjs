@@ -4,7 +4,7 @@ import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 import { after, before, test } from "node:test";
-import { openBrowser, openPage, rests, shot, told } from "./browser.mjs";
+import { grown as grownOn, openBrowser, openPage, rests, shot, told } from "./browser.mjs";
 import { startProgram, tree, workFolder } from "./program.mjs";
 
 const programPath = resolve(process.argv[2] ?? "build/release/espalier");
@@ -14,9 +14,7 @@ let program;
 let browser;
 let page;
 
-async function grown(which = page) {
-  await which.waitForFunction(() => document.querySelector(".status").dataset.state === "done");
-}
+const grown = (which = page) => grownOn(which);
 
 async function shows(step) {
   await page.waitForFunction((wanted) => document.querySelector(".viewport").dataset.step === String(wanted), step);
@@ -143,7 +141,7 @@ test("another program's text is read again, and where this page has changes it a
   await page.locator(".cm-content").click();
   await page.keyboard.press("Control+Home");
   await page.keyboard.type("/* mine */ ");
-  await page.waitForTimeout(2000);
+  await grown();
   writeFileSync(file, tree.replace("#define ANGLE 32", "#define ANGLE 55"));
   const question = page.locator(".dispute");
   await question.waitFor();
@@ -201,7 +199,7 @@ test("the cloud of points shows while a slider of the crown moves, and goes afte
   await page.mouse.move(box.x + box.width * 0.1, box.y + box.height / 2);
   await page.mouse.down();
   await page.mouse.move(box.x + box.width * 0.16, box.y + box.height / 2, { steps: 4 });
-  await page.waitForTimeout(1500);
+  await grown();
   await page.mouse.move(box.x + box.width * 0.2, box.y + box.height / 2, { steps: 4 });
   await cloud.waitFor({ state: "attached" });
   await shot(page, "cloud");
@@ -228,7 +226,6 @@ test("a field and the counts are those of the step that shows", async () => {
   await page.waitForFunction(() => document.title.startsWith("two-trees"));
   await page.locator("#setting-steps").fill("24");
   await page.keyboard.press("Enter");
-  await page.waitForTimeout(1000);
   await grown();
   await shows(24);
   await page.getByLabel("Field", { exact: true }).selectOption("light");

@@ -2,7 +2,7 @@
 import { execFileSync } from "node:child_process";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
-import { openBrowser, openPage } from "./browser.mjs";
+import { answered, grown, openBrowser, openPage, rests } from "./browser.mjs";
 import { startProgram, workFolder } from "./program.mjs";
 
 const pictures = join(dirname(fileURLToPath(import.meta.url)), "../../docs/pictures");
@@ -12,7 +12,8 @@ const browser = await openBrowser();
 const page = await openPage(browser, program.address, { viewport: { width: 1180, height: 664 } });
 
 async function save(name) {
-  await page.waitForTimeout(1200);
+  await grown(page);
+  await rests(page);
   const whole = join(place.base, name);
   await page.screenshot({ path: whole });
   const palette = "split[a][b];[a]palettegen=max_colors=160:stats_mode=full[p];[b][p]paletteuse=dither=none";
@@ -35,7 +36,7 @@ async function open(name) {
   await page.locator(".gallery .search").fill(name);
   await page.locator(`.card[title*="${name}"]`).first().click();
   await page.waitForFunction((part) => document.title.includes(part), name);
-  await page.waitForFunction(() => document.querySelector(".status").dataset.state === "done");
+  await grown(page);
 }
 
 async function pick(symbol) {
@@ -43,14 +44,14 @@ async function pick(symbol) {
   for (let y = 0.85; y > 0.2; y -= 0.015)
     for (const x of [0.5, 0.48, 0.52, 0.46, 0.54]) {
       await page.mouse.click(box.x + box.width * x, box.y + box.height * y);
-      await page.waitForTimeout(120);
+      await answered(page);
       const text = (await page.locator(".pick-head code").count()) ? await page.locator(".pick-head code").textContent() : "";
       if (text.startsWith(symbol)) return;
     }
 }
 
 await page.waitForSelector(".viewport[data-step]");
-await page.waitForFunction(() => document.querySelector(".status").dataset.state === "done");
+await grown(page);
 await page.getByRole("button", { name: "No more hints" }).click();
 await page.getByRole("tab", { name: "Settings" }).click();
 await page.locator("#setting-seed").fill("7");

@@ -1,8 +1,9 @@
 // Starts the real program on a folder of its own.
 import { spawn } from "node:child_process";
-import { mkdtempSync, mkdirSync, writeFileSync } from "node:fs";
+import { mkdtempSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { setTimeout } from "node:timers/promises";
 
 /** The tree of the tests: settings with bounds, a switch, parameters with a history. */
 export const tree = `/* A tree for tests
@@ -33,6 +34,17 @@ export function workFolder() {
   mkdirSync(folder);
   writeFileSync(join(folder, "tree.l"), tree);
   return { base, folder };
+}
+
+/** Until what the program keeps of its work, for a crash, has all these words. */
+export async function keeps({ base }, ...words) {
+  const folder = join(base, "state", "espalier");
+  const kept = () => readdirSync(folder).map((name) => readFileSync(join(folder, name), "utf8"));
+  for (let tries = 0; tries < 600; tries++) {
+    if (kept().some((text) => words.every((word) => text.includes(word)))) return;
+    await setTimeout(50);
+  }
+  throw new Error(`${words} is not kept`);
 }
 
 /** The running program and its address. */

@@ -89,7 +89,7 @@ function measure(count) {
     ranges: [],
     onPicture: null,
     groups: [],
-    wornLimbs: false,
+    texturedLimbs: false,
     labels: [],
   });
 

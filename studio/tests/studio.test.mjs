@@ -4,8 +4,8 @@ import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { after, before, test } from "node:test";
-import { openBrowser, openPage, rests, shot, told } from "./browser.mjs";
-import { startProgram, tree, workFolder } from "./program.mjs";
+import { answered, grown as grownOn, openBrowser, openPage, rests, shot, told } from "./browser.mjs";
+import { keeps, startProgram, tree, workFolder } from "./program.mjs";
 
 const programPath = resolve(process.argv[2] ?? "build/release/espalier");
 const place = workFolder();
@@ -25,9 +25,7 @@ async function shows(step, which = page) {
   await which.waitForFunction((wanted) => document.querySelector(".viewport").dataset.step === String(wanted), step);
 }
 
-async function grown(which = page) {
-  await which.waitForFunction(() => document.querySelector(".status").dataset.state === "done");
-}
+const grown = (which = page) => grownOn(which);
 
 async function counts() {
   return page.locator(".status .counts").textContent();
@@ -149,7 +147,7 @@ test("an organ tells what it is, its history and the production that made it", a
   // The trunk stands in the middle, near the ground.
   for (let part = 0.9; part > 0.5; part -= 0.02) {
     await page.mouse.click(box.x + box.width / 2, box.y + box.height * part);
-    await page.waitForTimeout(250);
+    await answered(page);
     if (await page.locator(".pick .facts").count()) break;
   }
   await page.waitForSelector(".pick .facts");
@@ -308,7 +306,6 @@ test("points of a function are dragged, and the text follows", async () => {
   await page.mouse.down();
   await page.mouse.move(point.x + 5, point.y - 60, { steps: 6 });
   await page.mouse.up();
-  await page.waitForTimeout(500);
   await grown();
   assert.notDeepEqual(await picture(), before);
   assert.doesNotMatch(await page.locator(".cm-content").textContent(), /0\.7 0\.6/);
@@ -413,10 +410,9 @@ test("the work is found again after the program was killed in the middle of a gr
   await page.locator(".cm-content").click();
   await page.keyboard.press("Control+Home");
   await page.keyboard.type("/* kept work */ ");
-  await page.waitForTimeout(2500);
   await page.locator("#setting-steps").fill("14");
   await page.keyboard.press("Enter");
-  await page.waitForTimeout(900);
+  await keeps(place, "kept work", '"steps":14');
   await program.kill("SIGKILL");
   await page.waitForSelector(".banner:not([hidden])");
   await shot(page, "lost");

@@ -165,12 +165,60 @@ TEST_CASE("render: a film that is interrupted leaves nothing", "[render]") {
         }
         return false;
     };
-    const Outcome outcome = place.run_until(
-        {"render", "run", "--output", "film.ogv", "--frames", "100000", "--step", "last", "--orbit", "1"}, begun,
-        [](pid_t child) { kill(child, SIGINT); });
-    CHECK(outcome.code == 130);
-    CHECK_FALSE(begun());
-    CHECK_FALSE(std::filesystem::exists(place.path() / "film.ogv"));
+    const std::vector<std::string> many{"--frames", "100000", "--step", "last", "--orbit", "1"};
+    const std::vector<std::string> slow{"--light", "--samples", "65536", "--size", "2000x2000"};
+    for (const auto& how : {many, slow}) {
+        std::vector<std::string> words{"render", "run", "--output", "film.ogv"};
+        words.insert(words.end(), how.begin(), how.end());
+        const Outcome outcome = place.run_until(words, begun, [](pid_t child) { kill(child, SIGINT); });
+        CHECK(outcome.code == 130);
+        CHECK_FALSE(begun());
+        CHECK_FALSE(std::filesystem::exists(place.path() / "film.ogv"));
+    }
+}
+
+TEST_CASE("render: light makes pictures, sheets and films, the same with any number of threads", "[render][light]") {
+    const RenderPlace place;
+    if (!place.grow()) return;
+    const std::string light = "--light --samples 2 --size 40x30 --quiet ";
+    REQUIRE(place.run("render run --output plain.png --size 40x30 --quiet").code == 0);
+    REQUIRE(place.run("render run --output a.png " + light).code == 0);
+    CHECK(place.size_of("a.png") == std::array{40, 30});
+    REQUIRE(place.run("render run --output b.png " + light, "taskset -c 0").code == 0);
+    CHECK((place.bytes("a.png") == place.bytes("b.png")));
+    std::set<std::string> all{place.bytes("plain.png"), place.bytes("a.png")};
+    std::size_t count = 2;
+    for (const char* words : {"--sun 60:20", "--sky overcast", "--sky uniform", "--exposure -1", "--background light",
+                              "--dark", "--background transparent", "--no-ground", "--samples 9", "--noise 0.2",
+                              "--colour-by birth", "--plant left", "--azimuth 90", "--title Light"}) {
+        CAPTURE(words);
+        const std::string own = std::string(words) == "--samples 9" ? "--light --size 40x30 --quiet " : light;
+        REQUIRE(place.run("render run --output x.png " + own + words).code == 0);
+        all.insert(place.bytes("x.png"));
+        CHECK(all.size() == ++count);
+    }
+    REQUIRE(place.run("render run --output sheet.png --sheet 2x1 " + light).code == 0);
+    CHECK(place.size_of("sheet.png") == std::array{80, 30});
+    REQUIRE(place.run("render run --output film.ogv --frames 2 " + light).code == 0);
+    CHECK_FALSE(place.bytes("film.ogv").empty());
+    REQUIRE(place.run("render run --output many.png --step 3:4 " + light).code == 0);
+    CHECK(std::filesystem::exists(place.path() / "many-0003.png"));
+}
+
+TEST_CASE("render: the sun of a picture by light stands where that of the scene does", "[render][light]") {
+    const RenderPlace place;
+    if (!place.grow()) return;
+    const std::string head = std::string(scene) + "[environment.light]\nprocess = \"ray-light\"\npaths = 64\n";
+    const std::string steady = "sky = { par = 1000, diffuse = 0.2, radiance = \"cie-12\", sun = [";
+    place.write("east.toml", head + steady + "1, 1, 0] }\n");
+    place.write("hours.toml", head + "days = 0.05\nsky = { latitude = 50, day = 172, hours = [12] }\n");
+    const std::string light = " --light --samples 2 --size 40x30 --quiet ";
+    REQUIRE(place.run("render east.toml --run-output east --output a.png" + light).code == 0);
+    REQUIRE(place.run("render east --output b.png --sun 90:45" + light).code == 0);
+    REQUIRE(place.run("render east --output c.png --sun -90:45" + light).code == 0);
+    CHECK((place.bytes("a.png") == place.bytes("b.png")));
+    CHECK((place.bytes("a.png") != place.bytes("c.png")));
+    CHECK(place.run("render hours.toml --run-output hours --output d.png" + light).code == 0);
 }
 
 TEST_CASE("render: wrong words are told with what is meant, exit code 1", "[render]") {
@@ -199,6 +247,14 @@ TEST_CASE("render: wrong words are told with what is meant, exit code 1", "[rend
     refuses("--sheet 4", "COLUMNSxROWS");
     refuses("--sheet 1000x1000", "10,000");
     refuses("--elevation 100", "100");
+    refuses("--samples 9", "needs --light");
+    refuses("--sun 3:4", "needs --light");
+    refuses("--light --no-shade", "do not go together");
+    refuses("--light --field light", "do not go together");
+    refuses("--light --sun 3", "AZIMUTH:ELEVATION");
+    refuses("--light --sun 3:-4", "AZIMUTH:ELEVATION");
+    refuses("--light --sky blue", "blue");
+    refuses("--light --samples 0", "0");
     CHECK(place.run("render run --output x.jpg").code == 1);
     CHECK(place.run("render nothere").code == 1);
     CHECK(place.run("render").code == 1);

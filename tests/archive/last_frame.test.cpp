@@ -96,6 +96,8 @@ TEST_CASE("what a process knows of organs is in both, but for directions", "[rea
     const auto same = [](double a, double b) { return a == b || (a != a && b != b); };
     CHECK(std::equal(absorbed.begin(), absorbed.end(), ours.begin(), ours.end(), same));
     CHECK(std::any_of(absorbed.begin(), absorbed.end(), [](double value) { return value > 0; }));
+    CHECK(file.units == std::map<std::string, std::string>{{"light.absorbed", "mol"}});
+    CHECK(grown.last.geometry()->units == file.units);
 }
 
 TEST_CASE("organs of a frame are those of its step, though the world has gone on when it is written", "[reading]") {

@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+#include <vector>
 
 using namespace espalier;
 
@@ -79,4 +81,70 @@ TEST_CASE("roots: maize has a primary root, seminal roots and whorls at their ti
     CHECK(roots_after("maize", 14, 1).at(0).axes == 1 + 4 + 4 + 5);
     CHECK(roots_after("wheat", 14, 1).at(0).axes == 5);
     CHECK(roots_after("wheat", 20, 1).at(0).axes == 5 + 2 * 2);
+}
+
+namespace {
+
+struct TreeAxis {
+    int order = 0;
+    double length = 0;
+    glm::dvec3 base{0}, tip{0};
+};
+
+/// The axes of 25 years, longest first.
+std::vector<TreeAxis> tree_axes(double step, std::uint64_t seed) {
+    LonePlant plant("models/roots/tree.l", {{"DT", fmt::format("{}", step)}}, seed);
+    plant.grow(static_cast<int>(std::lround(25 / step)));
+    std::map<std::uint32_t, TreeAxis> axes;
+    for (const Internode& internode : plant.interpretation.geometry.internodes) {
+        TreeAxis& axis = axes[internode.axis];
+        if (axis.length == 0) axis.base = internode.base;
+        axis.order = internode.order;
+        axis.length += glm::length(internode.tip - internode.base);
+        axis.tip = internode.tip;
+    }
+    std::vector<TreeAxis> sorted;
+    for (const auto& [number, axis] : axes) sorted.push_back(axis);
+    std::sort(sorted.begin(), sorted.end(), [](const TreeAxis& a, const TreeAxis& b) { return a.length > b.length; });
+    return sorted;
+}
+
+}  // namespace
+
+TEST_CASE("roots: taproot and main roots of a tree have the lengths of the law of growth", "[roots-models]") {
+    for (const double step : {1.0, 0.25}) {
+        const std::vector<TreeAxis> axes = tree_axes(step, 5);
+        for (int k = 0; k < 7; ++k) {
+            const double place = (k + 1) * 0.3 / 7;
+            const double age = 25 + 1.6 / 0.4 * std::log(1 - place / 1.6) - 1;
+            CHECK(axes[static_cast<std::size_t>(k)].order == 1);
+            CHECK(axes[static_cast<std::size_t>(k)].length == Approx(length_after(9, 0.6, age)).epsilon(1e-5));
+        }
+        const auto taproot =
+            std::find_if(axes.begin(), axes.end(), [](const TreeAxis& axis) { return axis.order == 0; });
+        CHECK(taproot->length == Approx(length_after(1.6, 0.4, 25)).epsilon(1e-5));
+    }
+}
+
+TEST_CASE("roots: main roots of a tree stay shallow and in the ground, and sinkers are steep", "[roots-models]") {
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        INFO("seed " << seed);
+        const std::vector<TreeAxis> axes = tree_axes(1, seed);
+        int sinkers = 0;
+        for (const TreeAxis& axis : axes) {
+            const glm::dvec3 reach = axis.tip - axis.base;
+            const double aside = std::hypot(reach.x, reach.z);
+            CHECK(axis.tip.y < 0);
+            if (axis.order == 1 && axis.length > 5) {
+                CHECK(axis.tip.y > -1.6);
+                CHECK(aside > 0.6 * axis.length);
+            }
+            // Laterals stand on main roots at 65 degrees to the side.
+            if (axis.order == 2 && axis.length > 0.5 && -reach.y > aside) {
+                ++sinkers;
+                CHECK(-reach.y > 3 * aside);
+            }
+        }
+        CHECK(sinkers > 15);
+    }
 }

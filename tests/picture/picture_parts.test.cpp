@@ -101,6 +101,18 @@ TEST_CASE("camera: an outline of few points stands for all", "[pictures]") {
     CHECK(halves[0].points() == outline.points());
 }
 
+TEST_CASE("colour bars say the units of what they show", "[pictures]") {
+    const RecordedFolder recorded;
+    const RecordedRun run(recorded.folder.path);
+    FrameGeometry geometry = run.geometry(run.frames().back());
+    const auto title = [&](const std::string& name) { return Colouring(run, name).key(run, geometry, {0, 1})->title; };
+    CHECK(title("vigour") == "vigour");
+    geometry.units["vigour"] = "umol m-2 s-1";
+    CHECK(title("vigour") == "vigour (umol m-2 s-1)");
+    CHECK(title("light") == "light");  // a share
+    CHECK(with_unit("water", "m3/m3") == "water (m3/m3)");
+}
+
 TEST_CASE("daylight: under a roof it is dark, on it and far from it light", "[pictures]") {
     const Square roof(10, 1);
     const std::vector<Occluder> occluders{roof.occluder()};

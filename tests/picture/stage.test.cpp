@@ -194,6 +194,48 @@ TEST_CASE("stage: a crown's shadow falls on the ground away from the sun", "[pic
     CHECK(lit[0] < 255);
 }
 
+TEST_CASE("stage: light paths draw the plants where the graphics card does, with a shadow away from the sun",
+          "[pictures][light]") {
+    if (!can_draw()) return;
+    HandmadePlant plant = tree_with_flat_crown();
+    Pictured pictured({&plant});
+    PictureStyle style = Pictured::plain();
+    style.ground = true;
+    style.sun_azimuth = 90;
+    style.sun_elevation = 75;
+    style.background.transparent = true;
+    style.light = PictureLight();
+    style.light->samples = 8;
+    style.light->shows_sky = false;
+    const auto plain = pictured.picture(
+        [&] {
+            PictureStyle rastered = style;
+            rastered.light.reset();
+            rastered.ground = false;
+            return rastered;
+        }(),
+        {0, 30});
+    pictured.picture(style, {0, 30});
+    const auto traced = pictured.painter->traced(style.light->sky);
+    const Pixel lit = pictured.seen(*traced, {0.6, 0, 0}), shaded = pictured.seen(*traced, {-0.6, 0, 0});
+    CHECK(lit[0] > shaded[0] + 30);
+    // Without the ground both have the plants in the same pixels.
+    style.ground = false;
+    pictured.picture(style, {0, 30});
+    const auto alone = pictured.painter->traced(style.light->sky);
+    int plants = 0, different = 0;
+    for (int y = 0; y < Pictured::height; ++y) {
+        for (int x = 0; x < Pictured::width; ++x) {
+            const int a = pixel_at(*plain, x, y)[3], b = pixel_at(*alone, x, y)[3];
+            plants += a > 0;
+            different += std::abs(a - b) > 160;
+        }
+    }
+    CHECK(plants > 500);
+    CHECK(different == 0);
+    CHECK(pixel_at(*alone, 2, 2)[3] == 0);
+}
+
 TEST_CASE("stage: what is thin is as bright from behind as in front, what is closed is dark beneath", "[pictures]") {
     if (!can_draw()) return;
     HandmadePlant plant = tree_with_flat_crown();

@@ -68,7 +68,7 @@ TEST_CASE("the page's types, the manual's tables and the fuzzer's words are what
     CHECK(protocol.requests.size() > 20);
     CHECK(protocol.messages.size() > 8);
     check_made("studio/source/protocol.ts", typescript(protocol));
-    check_made("docs/studio-protocol.md", manual(protocol));
+    check_made("docs/developer/studio-protocol.md", manual(protocol));
     check_made("tests/fuzz/requests.dict", dictionary(protocol));
 }
 

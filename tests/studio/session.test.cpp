@@ -1,4 +1,4 @@
-// The requests of docs/studio-protocol.md as a page makes them.
+// The requests of docs/developer/studio-protocol.md as a page makes them.
 #include "base/base64.h"
 #include "session_fixture.h"
 

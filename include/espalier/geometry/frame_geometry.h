@@ -69,6 +69,7 @@ struct FrameGeometry {
     FrameAttributes of_points, of_cells;
     Column<std::uint16_t> textures, back_colours;      ///< one a cell; textures index `texture_files`
     std::map<std::string, Column<double>> parameters;  ///< the chosen ones, by point; NaN where a module has none
+    std::map<std::string, std::string> units;          ///< units of those that have one
     std::vector<std::string> symbol_names, texture_files;
     std::vector<std::string> label_texts;  ///< texts of the vertices of Kind::label, in their order
 };

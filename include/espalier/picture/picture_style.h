@@ -31,6 +31,26 @@ struct PictureBackground {
 
 inline constexpr PictureBackground light_background{{255, 255, 255}, false}, dark_background{{24, 26, 30}, false};
 
+/// Sun and sky of a picture that light paths make.
+struct PictureSky {
+    /// clear: Preetham, Shirley & Smits 1999, with a sun; overcast: Moon & Spencer 1942; uniform: the same everywhere.
+    enum class Kind : std::uint8_t { clear, overcast, uniform };
+
+    Kind kind = Kind::clear;
+    double turbidity = 2.2;           ///< haze of the air: 2 is very clear, 8 hazy
+    std::optional<double> diffuse;  ///< share of the sky in the light on level ground; none: as the kind has it
+    std::optional<std::array<double, 2>> sun;  ///< its azimuth and elevation, degrees; none: those of the style
+};
+
+/// How light paths make a picture, instead of a graphics card.
+struct PictureLight {
+    PictureSky sky;
+    int samples = 64;  ///< paths of a pixel; at most, if there is a `noise`
+    double noise = 0;  ///< a pixel is done when its standard error is less, as a share of white; 0: after all samples
+    double stops = 0;  ///< brightness, in powers of two
+    bool shows_sky = true;  ///< or the style's background
+};
+
 struct PictureStyle {
     /// "natural": the model's colours and textures; else an array of the plants (birth, age, order, plant, symbol,
     /// kind, colour, identity, radius, height, a chosen parameter), or a recorded field, sampled at the organs
@@ -51,6 +71,7 @@ struct PictureStyle {
     bool time_beneath = false;  ///< the time in the middle of the lower edge
     std::string title;
     double sun_azimuth = -20, sun_elevation = 50;  ///< degrees, as a camera's place
+    std::optional<PictureLight> light;             ///< draws by light paths; fields are left out
     int triangles = 3'000'000;  ///< most triangles of axes, about: they have fewer sides where there are many
 };
 
@@ -74,6 +95,8 @@ using picture::dark_background;
 using picture::FieldLook;
 using picture::light_background;
 using picture::PictureBackground;
+using picture::PictureLight;
+using picture::PictureSky;
 using picture::PictureStyle;
 
 }  // namespace espalier

@@ -23,6 +23,11 @@ struct RenderJob {
     PictureSize size{1200, 900};
     /// Told after each frame that was drawn.
     std::function<void(std::size_t drawn, std::size_t all)> progress;
+    /// Told while light paths draw: the share of all frames that is done. Either may throw; nothing is left half
+    /// written.
+    std::function<void(double share)> trace_progress{};
+    /// Sun and sky of each frame; none: those of the style's `light`.
+    std::function<PictureSky(const RecordedFrame&)> sky_at{};
     /// Instead of the style's background that of the author, else a dark one where most colours are hardly seen on
     /// white.
     bool chooses_background = false;

@@ -5,6 +5,7 @@
 
 #include "app/command.h"
 #include "app/options.h"
+#include "base/number.h"
 #include "base/text.h"
 #include "field_profile.h"
 #include "frame_option.h"
@@ -14,7 +15,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <span>
 
@@ -173,9 +173,9 @@ private:
         if (range_.empty()) return {0, 0};
         double low = 0, high = 0;
         const char* const end = range_.data() + range_.size();
-        const auto first = std::from_chars(range_.data(), end, low);
+        const auto first = read_number(range_.data(), end, low);
         const bool has_both = first.ec == std::errc() && first.ptr != end && *first.ptr == ':';
-        const auto second = has_both ? std::from_chars(first.ptr + 1, end, high) : first;
+        const auto second = has_both ? read_number(first.ptr + 1, end, high) : first;
         const bool is_range = has_both && second.ec == std::errc() && second.ptr == end && low < high;
         if (is_range && std::isfinite(low) && std::isfinite(high)) return {low, high};
         throw UserError(fmt::format("--range {}: expected two heights such as -1.2:0, the lower first", range_));

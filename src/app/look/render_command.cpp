@@ -14,6 +14,7 @@
 #include "base/platform.h"
 #include "base/text.h"
 #include "frame_option.h"
+#include "light_options.h"
 #include "picture_options.h"
 
 #include <fmt/format.h>
@@ -29,6 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t pictures_of_a_turn = 72;
+constexpr double sun_with_sky = 40, eye_with_sky = 4;  // degrees: the horizon is low, and behind the plants is the sky
 
 std::atomic<bool> interrupt{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
@@ -44,18 +46,30 @@ public:
     PictureProgress& operator=(const PictureProgress&) = delete;
 
     void operator()(std::size_t done, std::size_t all) {
-        if (!shown_ || all < 2) return;
-        drawn_ = true;
-        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
-        const double left = passed.count() / static_cast<double>(done) * static_cast<double>(all - done);
-        const std::size_t bars = 30 * done / all;
-        fmt::print(stderr, "\r[{:#<{}}{:.<{}}] picture {}/{}, {} left\033[K", "", bars, "", 30 - bars, done, all,
-                   duration_text(left));
+        if (all < 2 || is_traced_) return;
+        draw(static_cast<double>(done) / static_cast<double>(all), fmt::format("picture {}/{}", done, all));
+    }
+    /// Of pictures by light paths: the share of them all that is done.
+    void traced(double share) {
+        is_traced_ = true;
+        const auto now = std::chrono::steady_clock::now();
+        if (share < 1 && now - drawn_at_ < std::chrono::milliseconds(100)) return;
+        drawn_at_ = now;
+        draw(share, fmt::format("{:.0f} %", 100 * share));
     }
 
 private:
-    bool shown_, drawn_ = false;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    void draw(double share, const std::string& what) {
+        if (!shown_) return;
+        drawn_ = true;
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+        const double left = share > 0 ? passed.count() * (1 - share) / share : 0;
+        const auto bars = static_cast<std::size_t>(30 * share);
+        fmt::print(stderr, "\r[{:#<{}}{:.<{}}] {}, {} left\033[K", "", bars, "", 30 - bars, what, duration_text(left));
+    }
+
+    bool shown_, drawn_ = false, is_traced_ = false;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), drawn_at_ = start_;
 };
 
 /// A large picture takes a while, and nothing can be said in between.
@@ -74,7 +88,8 @@ public:
           sets_(app()),
           growth_(app()),
           picture_(app()),
-          place_of_camera_(app()) {
+          place_of_camera_(app()),
+          light_(app()) {
         add_output_options();
         add_look_options();
         add_camera_options();
@@ -95,6 +110,8 @@ public:
   espalier render output/two-trees --field light:slice=z --colour-by light
   espalier render output/two-roots --field water:volume --elevation 5
   espalier render output/two-roots --field water:iso=0.28 --step 0:200:10 --output roots.png
+  espalier render output/two-trees --light                                in the light of sun and sky
+  espalier render output/two-trees --light --sun 150:25 --noise 0.01      the sun behind the trees, with little noise
 A recorded run is not grown again. A field must have been recorded ([timeline] fields). `espalier info RUN` lists the content of
 a run. docs/render.md shows examples.)");
     }
@@ -102,6 +119,7 @@ a run. docs/render.md shows examples.)");
     int run() override {
         run_.model = model_.arguments();
         run_.model.file = folder_of_run(run_.model.file);
+        light_.check();
         const bool is_run = fs::exists(run_.model.file / "run.json");
         if (!is_run) {
             check_before_growing();
@@ -111,11 +129,16 @@ a run. docs/render.md shows examples.)");
         const RecordedRun recorded(is_run ? run_.model.file : run_.output);
         RenderJob job{recorded, {}, style_of(recorded), camera_, orbit_, ground(), follow_, {}, {}};
         place_camera(job);
+        light_.apply(job);
         job.chooses_background = background_.empty() && !picture_.dark();
         PictureProgress progress(run_.quiet || wants_json());
         job.progress = [&](std::size_t done, std::size_t all) {
             progress(done, all);
             if (interrupt) throw Stopped();  // so that what was begun is removed
+        };
+        job.trace_progress = [&](double share) {
+            progress.traced(share);
+            if (interrupt) throw Stopped();
         };
         const fs::path output = output_.empty() ? recorded.folder() / "render.png" : output_;
         const platform::EndSignals signals([](int) { interrupt = true; }, true);
@@ -233,6 +256,8 @@ private:
         const bool is_turned = app().count("--azimuth") > 0 || app().count("--elevation") > 0;
         job.camera.front_if_flat = !is_turned;
         job.style.sun_azimuth = camera_.azimuth - 50;
+        if (light_.is_on()) job.style.sun_elevation = sun_with_sky;
+        if (light_.is_on() && app().count("--elevation") == 0) job.camera.elevation = eye_with_sky;
         const auto& view = job.run.view();
         if (!view || is_turned || orbit_ != 0 || place_of_camera_.is_ours()) return;
         job.camera = camera_of(*view);
@@ -342,6 +367,7 @@ private:
     GrowthOptions growth_;
     PictureOptions picture_;
     CameraOption place_of_camera_;
+    LightOptions light_;
     std::optional<AxisSurfaceOptions> axes_;
     RunArguments run_;
     CameraPlace camera_;

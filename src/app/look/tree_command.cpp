@@ -121,7 +121,30 @@ public:
         app().add_flag("--quiet", arguments_.quiet, "print errors only");
         add_json_flag("print the result as JSON");
         // The model is read only if a tree is asked for.
-        app().preparse_callback([this](std::size_t) { add_settings(); });
+        app().preparse_callback([this](std::size_t) { add_options_of_files(); });
+    }
+
+    // A mistake in the scene or its model is told when the command runs: here only mistakes of options are.
+    void add_options_of_files() override {
+        try {
+            kind_.emplace();
+        } catch (const UserError& error) {
+            unreadable_ = error.what();
+            app().allow_extras();
+            return;
+        }
+        for (const ModelSetting& setting : kind_->values.settings()) {
+            const std::string meaning =
+                fmt::format("{} ({}{}{}; default {})", setting.summary, setting.range(),
+                            setting.unit.empty() ? "" : " ", setting.unit, format_general(setting.value));
+            app()
+                .add_option_function<std::string>(
+                    "--" + option_name(setting),
+                    [this, &setting](const std::string& text) { said_.emplace_back(&setting, text); }, meaning)
+                ->type_name("NUMBER")
+                ->group(setting.group.empty() ? "Settings" : setting.group);
+        }
+        app().footer(footer());
     }
 
     int run() override {
@@ -146,29 +169,6 @@ private:
         std::string format;
         bool counts;
     };
-
-    // A mistake in the scene or its model is told when the command runs: here only mistakes of options are.
-    void add_settings() {
-        try {
-            kind_.emplace();
-        } catch (const UserError& error) {
-            unreadable_ = error.what();
-            app().allow_extras();
-            return;
-        }
-        for (const ModelSetting& setting : kind_->values.settings()) {
-            const std::string meaning =
-                fmt::format("{} ({}{}{}; default {})", setting.summary, setting.range(),
-                            setting.unit.empty() ? "" : " ", setting.unit, format_general(setting.value));
-            app()
-                .add_option_function<std::string>(
-                    "--" + option_name(setting),
-                    [this, &setting](const std::string& text) { said_.emplace_back(&setting, text); }, meaning)
-                ->type_name("NUMBER")
-                ->group(setting.group.empty() ? "Settings" : setting.group);
-        }
-        app().footer(footer());
-    }
 
     std::string footer() const {
         std::string text =

@@ -105,7 +105,8 @@ public:
             .add_option("--threads", arguments_.threads, "number of threads that grow a scene; default: all cores")
             ->check(CLI::Range(1, 4096));
         app().add_flag("--keep-running", keep_running_, "grow a scene to its end after the window closes");
-        app().footer(R"(The key h shows the keys of the window. Examples:
+        app().footer(R"(The key h shows the keys of the window.
+Examples:
   espalier view output/two-trees                        a run, finished or still growing
   espalier view environments/two-trees.toml             grows a scene and shows it; closing the window ends the run
   espalier view models/course/02-branching.l --steps 6

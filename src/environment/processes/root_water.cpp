@@ -2,6 +2,7 @@
 // Doussan et al. 1998; Meunier et al. 2017; Schroeder et al. 2008; Feddes et al. 1978; Couvreur et al. 2012.
 #include "espalier/environment/environment_process.h"
 
+#include "environment/roots/internode_water.h"
 #include "environment/roots/uptake.h"
 #include "environment/soil/sink.h"
 #include "environment/water/field.h"
@@ -96,7 +97,7 @@ public:
         std::fill(lengths_.begin(), lengths_.end(), 0);
         for (const PlantView& plant : world.plants) {
             plants_.push_back(plant.plant);
-            roots_.emplace_back(roots_of(plant, world, soil), soil);
+            roots_.emplace_back(cut_roots(plant, world, soil), soil);
             roots_.back().add_lengths(lengths_);
         }
         for (PlantUptake& roots : roots_) roots.surround(lengths_, zone_ && model_ == UptakeModel::network);
@@ -165,9 +166,7 @@ public:
     std::vector<Quantity> statistics(std::uint32_t plant) const override {
         const Transpired none{};
         const Transpired& water = plant < transpired_.size() ? transpired_[plant] : none;
-        const auto at = std::find(plants_.begin(), plants_.end(), plant);
-        const PlantUptake* roots =
-            at == plants_.end() ? nullptr : &roots_[static_cast<std::size_t>(at - plants_.begin())];
+        const PlantUptake* const roots = roots_of(plant);
         const bool any = roots && !roots->roots().pieces.empty();
         const double nothing = std::nan("");
         return {{"transpiration", water.in_step, "cm3"},
@@ -178,6 +177,13 @@ public:
                 {"depth", water.taken > 0 ? water.taken_depth / water.taken : nothing, "cm"},
                 {"conductance", any ? roots->water().conductance : 0, "cm2/d"},
                 {"suf_depth", any ? standard_depth(*roots) : nothing, "cm"}};
+    }
+
+    std::vector<OrganQuantity> organ_quantities() const override { return root_quantities(); }
+    std::shared_ptr<const std::vector<float>> organ_values(const std::string& name,
+                                                           std::uint32_t plant) const override {
+        const PlantUptake* const roots = roots_of(plant);
+        return roots ? root_values(*roots, name) : nullptr;
     }
 
     std::pair<int, int> query_arity() const override { return {1, 6}; }
@@ -206,7 +212,13 @@ public:
     }
 
 private:
-    PlantRoots roots_of(const PlantView& plant, const WorldView& world, const SoilLayout& soil) const {
+    /// Null for a plant that is not there in this step.
+    const PlantUptake* roots_of(std::uint32_t plant) const {
+        const auto at = std::find(plants_.begin(), plants_.end(), plant);
+        return at == plants_.end() ? nullptr : &roots_[static_cast<std::size_t>(at - plants_.begin())];
+    }
+
+    PlantRoots cut_roots(const PlantView& plant, const WorldView& world, const SoilLayout& soil) const {
         if (!plant.interpretation || !plant.string) return {};
         const SaidConductances said = SaidConductances::of(plant, name_);
         return roots_in_soil(plant, world, shared_.days_per_unit(), soil, orders_, measure_, said);
@@ -217,20 +229,9 @@ private:
     void tell(const PlantView& view, const PlantUptake& plant, std::span<const Query> queries,
               std::span<Answer> answers) const {
         const turtle::OrganBearers bearers(view.interpretation->geometry, *view.string);
-        const std::vector<std::uint32_t>& internodes = plant.roots().internodes;
-        const PlantWater& water = plant.water();
         for (std::size_t q = 0; q < queries.size(); ++q) {
-            const std::uint32_t wanted = bearers.of(queries[q].module, queries[q].pose.position);
-            const auto [first, end] = std::equal_range(internodes.begin(), internodes.end(), wanted);
-            double numbers[4] = {0, 0, 0, 0};
-            for (auto piece = first; piece != end; ++piece) {
-                const auto i = static_cast<std::size_t>(piece - internodes.begin());
-                const double share = 1 / static_cast<double>(end - first);
-                numbers[0] += share * water.xylem[i];
-                numbers[1] += water.uptake[i];
-                numbers[2] += share * water.surface[i];
-                numbers[3] += water.fractions[i];
-            }
+            const InternodeWater water = water_in(plant, bearers.of(queries[q].module, queries[q].pose.position));
+            const double numbers[] = {water.xylem, water.uptake, water.surface, water.fraction};
             for (std::size_t n = 0; n < std::min<std::size_t>(4, answers[q].size()); ++n) answers[q][n] = numbers[n];
         }
     }
@@ -301,7 +302,10 @@ heads          [-10, -25, -800, -16000] cm; for feddes, between which the uptake
 
 Fields: `name`, uptake (1/d); `name.length_density` (cm/cm3). Statistics of each plant: transpiration and potential (cm3, in the
 step), total (cm3), collar (cm, the lowest in the step), depth of the uptake (cm), conductance of the root system (Krs, cm2/d), suf_depth (mean depth
-of the uptake from uniform soil, cm).)";
+of the uptake from uniform soil, cm).
+
+Organs: potential and soil, the pressure heads in each internode and in the soil at its surface (cm), uptake (cm3/d), fraction of the
+uptake from uniform soil, radial (1/d) and axial (cm3/d).)";
 
 const Registered<ProcessType> entry{{"root-water",
                                      "water in roots: potentials, uptake and transpiration in soil with pressure", help,

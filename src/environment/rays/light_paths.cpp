@@ -4,7 +4,7 @@
 #include "espalier/base/random.h"
 
 #include "base/parallel.h"
-#include "environment/rays/sobol.h"
+#include "base/sobol.h"
 #include "geometry/vectors.h"
 
 #include <glm/common.hpp>

@@ -5,8 +5,8 @@
 #include "environment/rays/lamp.h"
 #include "environment/rays/light_sensor.h"
 #include "environment/rays/lit_triangles.h"
-#include "environment/rays/ray_scene.h"
 #include "environment/sky/daylight.h"
+#include "geometry/rays/ray_scene.h"
 
 #include <array>
 #include <cstdint>

@@ -5,8 +5,8 @@
 #include "espalier/geometry/plant_geometry.h"
 
 #include "environment/optics/optics.h"
-#include "environment/rays/ray_scene.h"
 #include "geometry/drawn/faces.h"
+#include "geometry/rays/ray_scene.h"
 
 #include <glm/vec3.hpp>
 

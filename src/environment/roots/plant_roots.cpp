@@ -78,6 +78,7 @@ public:
     }
 
     PlantRoots cut() {
+        roots_.modules_in_string = plant_.string->size();
         const std::vector<std::uint32_t> bearers = internode_bearers(plant_.interpretation->geometry, *plant_.string);
         for (std::uint32_t i = 0; i < internodes_.size(); ++i) {
             const std::uint32_t bearer = bearers[i];
@@ -116,6 +117,7 @@ private:
             roots_.radii.push_back(radius);
             roots_.depths.push_back(100 * (top_ - middle.y));
             roots_.internodes.push_back(i);
+            roots_.modules.push_back(internode.module);
             roots_.pieces.push_back({last_piece_[i], length * share, 2 * std::numbers::pi * radius, axial,
                                      cell == PlantRoots::no_cell ? 0 : radial, 0});
             last_piece_[i] = static_cast<std::uint32_t>(roots_.pieces.size() - 1);

@@ -21,7 +21,9 @@ struct PlantRoots {
     std::vector<double> radii;              ///< cm
     std::vector<double> depths;             ///< of each piece's middle below the surface, cm
     std::vector<std::uint32_t> internodes;  ///< of each piece
-    double collar_height = 0;               ///< cm, as heights of total heads
+    std::vector<std::uint32_t> modules;     ///< of each piece, in the plant's string
+    std::size_t modules_in_string = 0;
+    double collar_height = 0;  ///< cm, as heights of total heads
 
     static constexpr std::size_t no_cell = std::size_t(-1);
 };

@@ -40,6 +40,7 @@ public:
 
     const PlantRoots& roots() const { return roots_; }
     const PlantWater& water() const { return water_; }
+    const std::vector<double>& radial() const { return radial_; }  ///< of each piece, without the soil, 1/d
     /// Adds the lengths of the roots to those of the voxels, cm.
     void add_lengths(WaterBrick& lengths) const;
     /// Once the lengths of all plants are known: how far around each root it may draw; `zone` false: not at all.

@@ -1,10 +1,11 @@
 #include "environment/shapes/mesh_formats.h"
 
+#include "base/number.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -37,7 +38,7 @@ std::string_view take_line(std::string_view& text) {
 double number_of(std::string_view word) {
     if (!word.empty() && word.front() == '+') word.remove_prefix(1);
     double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const auto [end, error] = read_number(word.data(), word.data() + word.size(), value);
     if (error == std::errc::result_out_of_range) return std::nan("");
     if (error != std::errc() || end != word.data() + word.size()) {
         throw MeshFormatError(word.empty() ? std::string("it ends where a number is expected")

@@ -31,7 +31,7 @@ std::vector<double> Richards::share(std::span<const WaterWish> wishes) {
         for (std::size_t c = begin; c < begin + grid_.size().x; ++c) {
             if (left[c] == before[c]) continue;
             content_[c] -= before[c] - left[c];
-            head_[c] = layout_.kind(c).head_at(content_[c]);
+            head_[c] = layout_.kind(c).head_at(content_[c], head_[c]);
         }
     });
     balance_.flown.drunk += result.taken * edge_;

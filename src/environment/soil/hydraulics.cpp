@@ -130,23 +130,42 @@ double SoilHydraulics::least_content() const {
     return soil_.residual + (soil_.saturated - soil_.residual) * nodes_.back().saturation;
 }
 
-double SoilHydraulics::head_at(double content) const {
+double SoilHydraulics::head_at(double content, double guess) const {
     const double saturation = (content - soil_.residual) / (soil_.saturated - soil_.residual);
-    return -suction_at(saturation, 1, &Node::saturation, &Node::saturation_slope);
+    return -suction_at(saturation, 1, &Node::saturation, &Node::saturation_slope, -guess);
 }
 
-double SoilHydraulics::head_of_conductivity(double value) const {
-    return -suction_at(value, soil_.conductivity, &Node::conductivity, &Node::conductivity_slope);
+double SoilHydraulics::head_of_conductivity(double value, double guess) const {
+    return -suction_at(value, soil_.conductivity, &Node::conductivity, &Node::conductivity_slope, -guess);
 }
 
-double SoilHydraulics::suction_at(double wanted, double full, double Node::*value, double Node::*slope) const {
+/// The last node whose value is greater; the first one's is, and the last one's is not. Steps from `guess` that double
+/// in length find two that bound it.
+std::size_t SoilHydraulics::node_before(double wanted, double Node::*value, double guess) const {
+    const double s = std::clamp(guess, nodes_.front().suction, nodes_[node_count - 2].suction);
+    std::size_t low = (std::bit_cast<std::uint64_t>(s) >> shift) - first_bits, high = low + 1, step = 1;
+    for (; !(nodes_[low].*value > wanted); step *= 2) {
+        high = low;
+        low -= std::min(step, low);
+    }
+    for (; nodes_[high].*value > wanted; step *= 2) {
+        low = high;
+        high = std::min(high + step, node_count - 1);
+    }
+    const auto first = nodes_.begin() + static_cast<std::ptrdiff_t>(low);
+    const auto last = nodes_.begin() + static_cast<std::ptrdiff_t>(high);
+    const auto after = std::partition_point(first, last, [&](const Node& node) { return node.*value > wanted; });
+    return static_cast<std::size_t>(after - nodes_.begin()) - 1;
+}
+
+double SoilHydraulics::suction_at(double wanted, double full, double Node::*value, double Node::*slope,
+                                  double guess) const {
     const Node &wettest = nodes_.front(), &driest = nodes_.back();
     if (wanted >= full) return 0;
     if (wanted >= wettest.*value) return wettest.suction * (full - wanted) / (full - wettest.*value);
     if (wanted <= driest.*value) return driest.suction * (1 - 1e-15);
-    const auto after =
-        std::partition_point(nodes_.begin(), nodes_.end(), [&](const Node& node) { return node.*value > wanted; });
-    const Node &a = *(after - 1), &b = *after;
+    const std::size_t before = node_before(wanted, value, guess);
+    const Node &a = nodes_[before], &b = nodes_[before + 1];
     const double width = b.suction - a.suction;
     double low = 0, high = 1, t = (a.*value - wanted) / (a.*value - b.*value);
     for (int i = 0; i < 60; ++i) {  // Newton between bounds

@@ -26,10 +26,10 @@ public:
 
     const SoilKind& soil() const { return soil_; }
     SoilPoint at(double head) const;
-    /// The head at which the soil holds this much; 0 if it is full.
-    double head_at(double content) const;
-    /// The head at which it conducts this well; 0 if as well as full soil.
-    double head_of_conductivity(double conductivity) const;
+    /// The head at which the soil holds this much; 0 if it is full. Found soon if it is near `guess`.
+    double head_at(double content, double guess = -100) const;
+    /// The head at which it conducts this well; 0 if as well as full soil. Found soon if it is near `guess`.
+    double head_of_conductivity(double conductivity, double guess = -100) const;
     /// What cannot be less: the content at a head of -1e9 cm.
     double least_content() const;
 
@@ -38,7 +38,8 @@ private:
         double suction, saturation, saturation_slope, conductivity, conductivity_slope, potential;
     };
     SoilPoint nearly_full(double head) const;
-    double suction_at(double wanted, double full, double Node::*value, double Node::*slope) const;
+    double suction_at(double wanted, double full, double Node::*value, double Node::*slope, double guess) const;
+    std::size_t node_before(double wanted, double Node::*value, double guess) const;
     void fill();
     void integrate();
     void limit_slopes();

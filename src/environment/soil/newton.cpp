@@ -8,6 +8,7 @@ namespace espalier::environment {
 namespace {
 
 constexpr double newton_tolerance = 1e-7;  ///< m3/m3: what a voxel may carry over to the next substep
+constexpr double negligible = 1e-6 * newton_tolerance;
 constexpr int most_newton_steps = 25;
 constexpr double wet = 0.9;  ///< effective saturation above which a voxel is changed by its head
 
@@ -209,7 +210,7 @@ double updated_wet_head(const SoilPoint& point, const SoilHydraulics& kind, doub
     const double full = kind.soil().conductivity;
     const double goal = point.conductivity + point.slope * change;
     if (goal >= full) return std::max(point.head + change, 0.0);
-    return kind.head_of_conductivity(std::max(goal, 0.3 * point.conductivity));
+    return kind.head_of_conductivity(std::max(goal, 0.3 * point.conductivity), point.head);
 }
 
 }  // namespace
@@ -221,9 +222,10 @@ double Richards::updated_head(std::size_t cell, double change) const {
     const double range = soil.saturated - soil.residual;
     const double saturation = (point.content - soil.residual) / range;
     if (saturation >= wet) return updated_wet_head(point, kind, change);
+    if (std::abs(point.capacity * change) < negligible) return point.head;  // soil at rest
     const double goal = saturation + point.capacity * change / range;
     if (goal >= 0.99) return std::max(kind.head_at(soil.residual + 0.99 * range), point.head);
-    return kind.head_at(soil.residual + range * std::max(goal, 0.1 * saturation));
+    return kind.head_at(soil.residual + range * std::max(goal, 0.1 * saturation), point.head);
 }
 
 }  // namespace espalier::environment

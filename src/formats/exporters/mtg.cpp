@@ -49,6 +49,7 @@ private:
 
     void add_head() {
         width_ = column_of_.empty() ? 1 : *std::max_element(column_of_.begin(), column_of_.end()) + 1;
+        put("# unit: m\n# up: {}\n", job_.options.up);
         put("CODE:\tFORM-A\n\nCLASSES:\nSYMBOL\tSCALE\tDECOMPOSITION\tINDEXATION\tDEFINITION\n"
             "$\t0\tFREE\tFREE\tIMPLICIT\nP\t1\tFREE\tFREE\tEXPLICIT\nA\t2\tFREE\tFREE\tEXPLICIT\n"
             "I\t3\tFREE\tFREE\tEXPLICIT\n\nDESCRIPTION:\nLEFT\tRIGHT\tRELTYPE\tMAX\n"

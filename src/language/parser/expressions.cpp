@@ -1,5 +1,6 @@
 #include "language/parser/expressions.h"
 
+#include "base/number.h"
 #include "base/text.h"
 #include "language/parser/constant.h"
 #include "language/parser/depth.h"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -245,7 +245,7 @@ Expression ExpressionParser::number() {
     const std::string_view rest = in_.rest();
     const Location at = in_.here();
     double value = 0;
-    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+    const auto [end, error] = read_number(rest.data(), rest.data() + rest.size(), value);
     const auto length = static_cast<std::size_t>(end - rest.data());
     const std::string_view digits = rest.substr(0, length);
     // What is too small is 0; what is too large is a mistake.

@@ -101,7 +101,7 @@ double last_day(const Document& document) {
 }  // namespace
 
 std::string model_of(const Document& document, const std::string& name) {
-    std::string text = fmt::format("/* A measured root system: {} */\n\n", escaped(name.substr(name.rfind('/') + 1)));
+    std::string text = fmt::format("/* Measured axes: {} */\n\n", escaped(name.substr(name.rfind('/') + 1)));
     if (document.has_times) text += "#define DT 1  /* days in a step; 0.01..100; days */\n";
     text += "module Tip(order)";
     text += document.has_times ? ", Node(day, x, y, z, length, diameter);\n" : ";\n";

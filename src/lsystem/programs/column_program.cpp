@@ -97,10 +97,11 @@ bool run_code(std::span<const ColumnProgram::Step> steps, double* columns, std::
         if (steps[n].may_divide_by_zero && arithmetic != Arithmetic::cpfg && divides_by_zero(columns, i, running))
             return false;
         double* const target = columns + i.target * lanes;
-        const auto with = [&](const auto& operation) [[gnu::always_inline]] {
+        const auto with = [&](const auto& operation) __attribute__((always_inline)) {
             const double* const a = columns + i.a * lanes;
             const double* const b = columns + i.b * lanes;
-            each(target, running, [&](std::size_t k) [[gnu::always_inline]] { return operation(a[k], b[k]); });
+            each(
+                target, running, [&](std::size_t k) __attribute__((always_inline)) { return operation(a[k], b[k]); });
         };
         switch (i.op) {
             case Opcode::copy:

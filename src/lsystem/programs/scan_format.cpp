@@ -1,5 +1,7 @@
 #include "lsystem/programs/scan_format.h"
 
+#include "base/number.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,7 +36,7 @@ std::size_t read_number(std::string_view text, double& value) {
     std::string_view rest = text;
     const double sign = accept_sign(rest);
     if (!rest.empty() && (rest[0] == '-' || rest[0] == '+')) return 0;
-    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+    const auto [end, error] = espalier::read_number(rest.data(), rest.data() + rest.size(), value);
     if (end == rest.data()) return 0;
     if (error == std::errc::result_out_of_range) value = 0;
     value *= sign;

@@ -2,6 +2,7 @@
 
 #include "espalier/base/error.h"
 
+#include "picture/stage/daylight.h"
 #include "picture/stage/legend.h"
 
 #include <fmt/format.h>
@@ -66,6 +67,44 @@ vtkSmartPointer<vtkImageData> shrunk(vtkImageData& drawn, const PictureSize& siz
     return picture;
 }
 
+using Pixel = std::array<float, 4>;  // red, green, blue and opacity, from 0 to 1
+
+/// What is drawn over something else (Porter & Duff 1984).
+Pixel over(const Pixel& upper, const Pixel& lower) {
+    const float rest = lower[3] * (1 - upper[3]), opacity = upper[3] + rest;
+    Pixel both{0, 0, 0, opacity};
+    for (std::size_t k = 0; k < 3 && opacity > 0; ++k) both[k] = (upper[3] * upper[k] + rest * lower[k]) / opacity;
+    return both;
+}
+
+Pixel pixel_of(const unsigned char* bytes) {
+    return {bytes[0] / 255.0F, bytes[1] / 255.0F, bytes[2] / 255.0F, bytes[3] / 255.0F};
+}
+
+/// A traced picture between its background and what is written on it.
+vtkSmartPointer<vtkImageData> composed(const OpacityPicture& traced, vtkImageData& written,
+                                       const PictureBackground& background) {
+    auto picture = vtkSmartPointer<vtkImageData>::New();
+    const int channels = background.transparent ? 4 : 3;
+    picture->SetDimensions(static_cast<int>(traced.width), static_cast<int>(traced.height), 1);
+    picture->AllocateScalars(VTK_UNSIGNED_CHAR, channels);
+    const auto& [red, green, blue] = background.rgb;
+    const std::array<unsigned char, 4> behind{red, green, blue,
+                                              background.transparent ? std::uint8_t{0} : std::uint8_t{255}};
+    const auto* letters = static_cast<const unsigned char*>(written.GetScalarPointer());
+    auto* to = static_cast<unsigned char*>(picture->GetScalarPointer());
+    for (std::size_t y = traced.height; y-- > 0;) {
+        for (std::size_t x = 0; x < traced.width; ++x, letters += 4, to += channels) {
+            const Pixel plants = over(pixel_of(traced.at(x, y).data()), pixel_of(behind.data()));
+            const Pixel all = over(pixel_of(letters), plants);
+            for (int k = 0; k < channels; ++k) {
+                to[k] = static_cast<unsigned char>(std::lround(255 * all[static_cast<std::size_t>(k)]));
+            }
+        }
+    }
+    return picture;
+}
+
 }  // namespace
 
 FramePainter::FramePainter(const RecordedRun& run, const PictureStyle& style, const PictureSize& size)
@@ -81,6 +120,17 @@ FramePainter::~FramePainter() {
 vtkSmartPointer<vtkImageData> FramePainter::picture() {
     const bool transparent = stage_.style().background.transparent;
     return shrunk(transparent ? *window_.image_with_alpha() : *window_.image(), size_);
+}
+
+vtkSmartPointer<vtkImageData> FramePainter::traced(const PictureSky& sky, const TraceProgress& progress) {
+    const PictureStyle& style = stage_.style();
+    const std::optional<LitGround> ground = stage_.lit_ground();
+    const LitScene scene(stage_.lit_parts(), ground);
+    const auto [azimuth, elevation] = sky.sun.value_or(std::array{style.sun_azimuth, style.sun_elevation});
+    const SkyLight light(sky, direction_at(azimuth, elevation));
+    const PathTracer tracer(scene, light, ground ? ground->reflectance : open_ground);
+    const OpacityPicture picture = traced_picture(tracer, light, stage_.view(), size_, *style.light, progress);
+    return composed(picture, *shrunk(*window_.image_with_alpha(), size_), style.background);
 }
 
 vtkSmartPointer<vtkImageData> picture_of(const Legend& legend, const PictureBackground& background, int height) {

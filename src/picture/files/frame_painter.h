@@ -5,6 +5,7 @@
 #include "espalier/picture/picture_style.h"
 
 #include "picture/files/off_screen.h"
+#include "picture/light/traced_picture.h"
 #include "picture/stage/stage.h"
 
 #include <vtkImageData.h>
@@ -23,6 +24,8 @@ public:
     Stage& stage() { return stage_; }
     /// What the stage shows, 8 bits red, green and blue per pixel, and alpha if the background is transparent.
     vtkSmartPointer<vtkImageData> picture();
+    /// The same for a style with `light`.
+    vtkSmartPointer<vtkImageData> traced(const PictureSky& sky, const TraceProgress& progress = {});
 
 private:
     PictureSize size_;

@@ -36,7 +36,8 @@ public:
         stage.settle(survey);
         PictureStyle style = job.style;
         style.ground = job.ground.value_or(!survey.box.empty() && !grows_beneath(survey.box));
-        if (job.chooses_background) style.background = chosen_background(job.run, survey, style.background);
+        if (job.chooses_background && !(style.light && style.light->shows_sky))
+            style.background = chosen_background(job.run, survey, style.background);
         stage.restyle(style);
         place_ = job.camera;
         place_.turns = place_.turns || job.orbit != 0;
@@ -55,7 +56,7 @@ public:
         CameraPlace place = place_;
         place.azimuth += turned(i);
         painter_.stage().place_camera(place, job_.follow);
-        auto drawn = painter_.picture();
+        auto drawn = job_.style.light ? traced(i, *job_.frames[frame]) : painter_.picture();
         if (job_.progress) job_.progress(i + 1, pictures());
         return drawn;
     }
@@ -79,6 +80,14 @@ private:
         RecordedFrame now = early;
         now.time = std::lerp(early.time, late.time, share);
         painter_.stage().show(now, std::make_shared<FrameGeometry>(unfolding_->at(share)));
+    }
+
+    vtkSmartPointer<vtkImageData> traced(std::size_t i, const RecordedFrame& frame) {
+        const auto progress = [&](double share) {
+            const double done = static_cast<double>(i) + share;
+            if (job_.trace_progress) job_.trace_progress(done / static_cast<double>(pictures()));
+        };
+        return painter_.traced(job_.sky_at ? job_.sky_at(frame) : job_.style.light->sky, progress);
     }
 
     static bool is_empty(const StageSurvey& survey) { return survey.outline.empty() && !survey.has_labels; }

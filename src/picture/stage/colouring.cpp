@@ -90,6 +90,7 @@ Colouring::Colouring(const RecordedRun& run, const std::string& name) : name_(na
     }
     const std::vector<std::string> parameters = parameter_names(run);
     if (std::find(parameters.begin(), parameters.end(), name) != parameters.end()) field_.clear();
+    if (!field_.empty()) field_unit_ = run.field(run.frames().back(), field_).unit;
 }
 
 std::vector<std::string> Colouring::names_of_every_run() {
@@ -160,11 +161,19 @@ std::string Colouring::name_of(const RecordedRun& run, const FrameGeometry& geom
     return std::to_string(value);
 }
 
+/// With its unit: "light.absorbed (mol)".
+std::string Colouring::title(const FrameGeometry& geometry) const {
+    if (const Array* array = array_of(name_)) return array->title;
+    const auto found = geometry.units.find(name_);
+    const std::string& unit = field_.empty() && found != geometry.units.end() ? found->second : field_unit_;
+    return with_unit(name_, unit);
+}
+
 std::optional<ColourKey> Colouring::key(const RecordedRun& run, const FrameGeometry& geometry,
                                         const std::array<double, 2>& range) const {
     if (is_natural()) return std::nullopt;
     const Array* array = array_of(name_);
-    ColourKey key{array ? array->title : name_, range, {}, {}};
+    ColourKey key{title(geometry), range, {}, {}};
     if (!is_category()) {
         key.colours = viridis();
         return key;
@@ -178,6 +187,10 @@ std::optional<ColourKey> Colouring::key(const RecordedRun& run, const FrameGeome
     for (const std::size_t value : present)
         key.names.emplace_back(name_of(run, geometry, value), category_colour(value));
     return key;
+}
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+    return unit.empty() || unit == "1" ? name : fmt::format("{} ({})", name, unit);
 }
 
 std::optional<std::array<double, 2>> range_of(const std::vector<double>& values) {

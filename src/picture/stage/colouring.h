@@ -48,8 +48,13 @@ private:
     std::string name_of(const RecordedRun& run, const FrameGeometry& geometry, std::size_t value) const;
 
     std::string name_;
-    std::string field_;  ///< the field that is sampled, if it is one
+    std::string title(const FrameGeometry& geometry) const;
+
+    std::string field_, field_unit_;  ///< the field that is sampled, if it is one
 };
+
+/// "water (m3/m3)"; what has no unit stays as it is.
+std::string with_unit(const std::string& name, const std::string& unit);
 
 /// The least and the greatest that are numbers; none if none is.
 std::optional<std::array<double, 2>> range_of(const std::vector<double>& values);

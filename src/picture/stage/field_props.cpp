@@ -163,8 +163,7 @@ void check_field(const RecordedRun& run, const FieldLook& look) {
 
 FieldProp field_prop(const RecordedField& field, const FieldLook& look, const std::array<double, 2>& range,
                      const glm::dvec3& middle, std::span<const Rgb> colours) {
-    const bool has_unit = !field.unit.empty() && field.unit != "1";
-    ColourKey key{has_unit ? fmt::format("{} ({})", field.name, field.unit) : field.name, range, colours, {}};
+    ColourKey key{with_unit(field.name, field.unit), range, colours, {}};
     if (look.kind == FieldLook::Kind::surface) {
         const double level = look.level.value_or((range[0] + range[1]) / 2);
         const Rgb rgb = along(colours, 0.7);

@@ -14,10 +14,6 @@ namespace {
 
 constexpr int texels = 416;
 
-std::array<float, 3> soil_of(const PictureBackground& background) {
-    return background.is_dark() ? std::array{74.0f, 76.0f, 80.0f} : std::array{226.0f, 222.0f, 214.0f};
-}
-
 /// 1 in the middle, 0 at the rim, without an edge anywhere.
 float presence(float distance) {
     const float inside = std::clamp(1 - distance, 0.0f, 1.0f);
@@ -25,6 +21,10 @@ float presence(float distance) {
 }
 
 }  // namespace
+
+std::array<float, 3> soil_of(const PictureBackground& background) {
+    return background.is_dark() ? std::array{74.0f, 76.0f, 80.0f} : std::array{226.0f, 222.0f, 214.0f};
+}
 
 float brightness(float sky, float sun) {
     return 0.36f + 0.36f * sky + 0.28f * sun;

@@ -14,6 +14,9 @@ namespace espalier::picture {
 vtkSmartPointer<vtkActor> ground_actor(const glm::dvec3& middle, double radius, const Daylight* daylight,
                                        const PictureBackground& background);
 
+/// The colour of the ground, from 0 to 255: it suits the background.
+std::array<float, 3> soil_of(const PictureBackground& background);
+
 /// How bright something is, as a share of what it would be in the open.
 float brightness(float sky, float sun);
 

@@ -4,11 +4,13 @@
 
 #include "archive/meshes/axis_lines.h"
 #include "archive/meshes/bark.h"
+#include "picture/light/colour_space.h"
 #include "picture/stage/background_scene.h"
 #include "picture/stage/colouring.h"
 #include "picture/stage/field_props.h"
 #include "picture/stage/ground.h"
 #include "picture/stage/legend.h"
+#include "picture/stage/lit_stage.h"
 #include "picture/stage/stage_light.h"
 #include "picture/stage/stage_mesh.h"
 #include "picture/stage/stage_survey.h"
@@ -32,6 +34,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <stdexcept>
 
 namespace espalier::picture {
 namespace {
@@ -151,6 +154,27 @@ public:
 
     bool is_flat() const { return is_flat_box(survey_ ? survey_->box : here_.box); }
 
+    std::vector<LitPart> lit_parts() const {
+        const std::vector<Rgb> colours = colours_of_points();
+        std::vector<LitPart> lit;
+        for (const Part& part : parts_) {
+            const std::string& file = texture_file(part.mesh);
+            lit.push_back(lit_part(*run_, part.mesh, {colours, file, has_own_colours(file), colouring_->is_natural()}));
+        }
+        if (const auto background = run_->background()) lit.push_back(lit_background(*background));
+        return lit;
+    }
+
+    std::optional<LitGround> lit_ground() const {
+        const auto disc = ground_disc();
+        if (!style_.ground || is_flat() || !disc) return std::nullopt;
+        const bool goes_on = style_.light && style_.light->shows_sky;
+        const auto [red, green, blue] = soil_of(style_.background);
+        const Rgb soil{static_cast<std::uint8_t>(red), static_cast<std::uint8_t>(green),
+                       static_cast<std::uint8_t>(blue)};
+        return LitGround{disc->middle, disc->radius, goes_on ? open_ground : linear_of(soil), !goes_on};
+    }
+
     void show_highlight() {
         for (const auto& actor : highlight_actors_) renderer_->RemoveActor(actor);
         highlight_actors_.clear();
@@ -177,7 +201,7 @@ private:
     void set_background() {
         const Rgb& rgb = style_.background.rgb;
         renderer_->SetBackground(rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
-        renderer_->SetBackgroundAlpha(style_.background.transparent ? 0 : 1);
+        renderer_->SetBackgroundAlpha(style_.background.transparent || style_.light ? 0 : 1);
     }
 
     std::array<double, 2> colour_range() const {
@@ -195,9 +219,11 @@ private:
         add_survey(*frame_, *geometry_, here_);
         legend_->legend = {};
         build_meshes();
-        add_lights_and_colours();
-        add_field_props();
-        add_background_scene();
+        if (!style_.light) {
+            add_lights_and_colours();
+            add_field_props();
+            add_background_scene();
+        }
         add_labels();
         write_legend();
         show_highlight();
@@ -239,18 +265,16 @@ private:
             for (const Part& part : parts_) occluders.push_back({points_of(part.mesh), corners_of(part.mesh)});
             daylight.emplace(occluders, sun);
         }
-        std::vector<Rgb> colours = colouring_->colours(*run_, *frame_, *geometry_, colour_range());
-        if (is_line_drawing()) std::fill(colours.begin(), colours.end(), style_.background.is_dark() ? chalk : ink);
+        const std::vector<Rgb> colours = colours_of_points();
         // Colours that mean a number are only tinged, or they could not be read.
         const float shade = colouring_->is_natural() ? 1.0F : 0.5F;
         const std::vector<Rgb> white(colours.size(), Rgb{255, 255, 255});
         for (Part& part : parts_) {
             const auto texture = texture_worn(part.mesh);
-            // Where no colour is given the picture has it; bark is only brighter and darker.
             const std::string& file = texture ? geometry_->texture_files[part.mesh.texture] : none;
-            const bool has_own_colours = texture && geometry_->of_points.rgb.empty() && !is_bark(file);
             dress_actor(*part.actor, part.mesh,
-                        {has_own_colours ? white : colours, daylight ? &*daylight : nullptr, shade, !is_flat()});
+                        {texture && has_own_colours(file) ? white : colours, daylight ? &*daylight : nullptr, shade,
+                         !is_flat()});
             part.actor->SetTexture(texture);
             if (texture && !is_flat()) add_relief(*part.actor, run_->folder(), file);
             renderer_->AddActor(part.actor);
@@ -258,10 +282,26 @@ private:
         if (style_.ground && !is_flat()) add_ground(daylight ? &*daylight : nullptr);
     }
 
-    /// Null where there is none, or something else is shown.
+    /// "" where there is none, or something else is shown.
+    const std::string& texture_file(const StageMesh& mesh) const {
+        if (mesh.texture == 0 || !style_.textures || !colouring_->is_natural()) return none;
+        return geometry_->texture_files[mesh.texture];
+    }
+
     vtkSmartPointer<vtkTexture> texture_worn(const StageMesh& mesh) const {
-        if (mesh.texture == 0 || !style_.textures || !colouring_->is_natural()) return nullptr;
-        return texture_of(run_->folder(), geometry_->texture_files[mesh.texture]);
+        const std::string& file = texture_file(mesh);
+        return file.empty() ? nullptr : texture_of(run_->folder(), file);
+    }
+
+    /// Where no colour is given the picture has it; bark is only brighter and darker.
+    bool has_own_colours(const std::string& texture) const {
+        return geometry_->of_points.rgb.empty() && !is_bark(texture);
+    }
+
+    std::vector<Rgb> colours_of_points() const {
+        std::vector<Rgb> colours = colouring_->colours(*run_, *frame_, *geometry_, colour_range());
+        if (is_line_drawing()) std::fill(colours.begin(), colours.end(), style_.background.is_dark() ? chalk : ink);
+        return colours;
     }
 
     /// A flat curve without a colour of its own.
@@ -271,13 +311,22 @@ private:
     }
 
     void add_ground(const Daylight* daylight) {
-        const Box& box = survey_ && !survey_->box.empty() ? survey_->box : here_.box;
-        if (box.empty()) return;
-        const glm::dvec3 half = (box.upper - box.lower) / 2.0;
-        const glm::dvec3 middle = box.lower + half;
-        const double radius = 1.5 * std::max({half.x, half.z, 0.7 * half.y});
-        others_.push_back(ground_actor(middle, radius, daylight, style_.background));
+        const auto disc = ground_disc();
+        if (!disc) return;
+        others_.push_back(ground_actor(disc->middle, disc->radius, daylight, style_.background));
         renderer_->AddViewProp(others_.back());
+    }
+
+    /// None where nothing is shown.
+    struct Disc {
+        glm::dvec3 middle;
+        double radius;
+    };
+    std::optional<Disc> ground_disc() const {
+        const Box& box = survey_ && !survey_->box.empty() ? survey_->box : here_.box;
+        if (box.empty()) return std::nullopt;
+        const glm::dvec3 half = (box.upper - box.lower) / 2.0;
+        return Disc{box.lower + half, 1.5 * std::max({half.x, half.z, 0.7 * half.y})};
     }
 
     void add_field_props() {
@@ -422,6 +471,19 @@ void Stage::shade(bool shading) {
 
 std::vector<std::string> Stage::colour_names() const {
     return Colouring::names(*body_->run_);
+}
+
+std::vector<LitPart> Stage::lit_parts() const {
+    return body_->lit_parts();
+}
+
+std::optional<LitGround> Stage::lit_ground() const {
+    return body_->lit_ground();
+}
+
+const CameraView& Stage::view() const {
+    if (!body_->view_) throw std::logic_error("the camera has not been placed");
+    return *body_->view_;
 }
 
 const Legend& Stage::legend() const {

@@ -5,6 +5,7 @@
 #include "espalier/geometry/plant_geometry.h"
 #include "espalier/picture/picture_style.h"
 
+#include "picture/light/lit_scene.h"
 #include "picture/stage/camera_fit.h"
 
 #include <vtkType.h>
@@ -82,6 +83,12 @@ public:
     void shade(bool shading);
     /// Everything `colour_by` may be for this run, "natural" first.
     std::vector<std::string> colour_names() const;
+
+    /// What stands in the light of a style with `light`, and the ground under it, until something else is shown.
+    std::vector<LitPart> lit_parts() const;
+    std::optional<LitGround> lit_ground() const;
+    /// From where `place_camera` looks.
+    const CameraView& view() const;
 
     /// What is written on the picture of the frame that is shown.
     const Legend& legend() const;

@@ -284,6 +284,11 @@ std::span<const glm::vec3> normals_of(const StageMesh& mesh) {
     return {reinterpret_cast<const glm::vec3*>(array->GetPointer(0)), mesh.row_of_point.size()};
 }
 
+std::span<const glm::vec2> uvs_of(const StageMesh& mesh) {
+    auto* array = vtkFloatArray::SafeDownCast(mesh.data->GetPointData()->GetTCoords());
+    return {reinterpret_cast<const glm::vec2*>(array->GetPointer(0)), mesh.row_of_point.size()};
+}
+
 std::span<const std::int32_t> corners_of(const StageMesh& mesh) {
     auto* array = vtkTypeInt32Array::SafeDownCast(mesh.data->GetPolys()->GetConnectivityArray());
     return {array->GetPointer(0), 3 * mesh.row_of_triangle.size()};

@@ -39,6 +39,7 @@ std::vector<StageMesh> surfaces_of(const FrameGeometry& geometry, const StageMes
 
 std::span<const glm::vec3> points_of(const StageMesh& mesh);
 std::span<const glm::vec3> normals_of(const StageMesh& mesh);
+std::span<const glm::vec2> uvs_of(const StageMesh& mesh);
 /// Three points a triangle.
 std::span<const std::int32_t> corners_of(const StageMesh& mesh);
 

@@ -25,7 +25,7 @@ std::string bytes_of(const std::filesystem::path& file, const std::string& conte
 /// A folder that a run has left.
 bool is_run(const std::filesystem::path& folder);
 
-// As docs/studio-protocol.md has them.
+// As docs/developer/studio-protocol.md has them.
 std::string language_of(const std::filesystem::path& file);
 std::string role_of(const std::filesystem::path& file, const std::filesystem::path& main);
 std::string kind_of(const std::filesystem::path& path);

@@ -22,7 +22,8 @@ public:
 
     /// Throws RunError if the disk is full.
     void add(const Fields& fields, int step);
-    /// The message `ESF1` of docs/studio-protocol.md. Throws UserError if there is no such field at this step.
+    /// The message `ESF1` of docs/developer/studio-protocol.md. Throws UserError if there is no such field at this
+    /// step.
     std::string message(int step, const std::string& name) const;
 
 private:

@@ -79,7 +79,7 @@ public:
     virtual bool has_packet(int step) const = 0;
     /// A step that has been derived is drawn next.
     virtual void draw(int step) = 0;
-    // As docs/studio-protocol.md has them. Packets and axes are those of a step that was drawn.
+    // As docs/developer/studio-protocol.md has them. Packets and axes are those of a step that was drawn.
     virtual std::string packet(int step) const = 0;
     virtual LimbAxes limb_axes(int step) const = 0;
     virtual std::vector<std::string> shapes() const = 0;

@@ -35,7 +35,7 @@ public:
     std::vector<std::pair<std::string, double>> parameters(const RecordedModule& module) const;
     /// "age", "plant", "symbol", "order", then the recorded parameters.
     std::vector<std::string> columns() const;
-    /// The messages of docs/studio-protocol.md. Throws UserError if there is no such column.
+    /// The messages of docs/developer/studio-protocol.md. Throws UserError if there is no such column.
     std::string column(std::uint32_t growth, int step, const std::string& name) const;
     std::string packet(std::uint32_t growth, int step) const { return parts_.bytes(growth, step); }
     /// They wear nothing: packets of recorded frames name no textures.

@@ -8,8 +8,8 @@
 
 namespace espalier::studio {
 
-/// The message `ESF1` of docs/studio-protocol.md: the field over the box that viewers show, in at most 64 voxels along
-/// each side.
+/// The message `ESF1` of docs/developer/studio-protocol.md: the field over the box that viewers show, in at most 64
+/// voxels along each side.
 std::string field_bytes(const Field& field, std::uint32_t growth, int step);
 
 }  // namespace espalier::studio

@@ -22,8 +22,8 @@ struct LimbOrder {
     bool smooth = false;
 };
 
-/// The message `ESM1` of docs/studio-protocol.md; "" if it was not wanted any more. Throws UserError as `skin_voxel`
-/// does.
+/// The message `ESM1` of docs/developer/studio-protocol.md; "" if it was not wanted any more. Throws UserError as
+/// `skin_voxel` does.
 std::string limb_mesh(const LimbOrder& order, const ContinueCallback& may_continue);
 
 /// Makes one on a thread of its own.

@@ -1,4 +1,4 @@
-// A frame as the studio's page draws it: docs/studio-protocol.md, "Binary messages".
+// A frame as the studio's page draws it: docs/developer/studio-protocol.md, "Binary messages".
 #pragma once
 
 #include "espalier/timeline/frame.h"

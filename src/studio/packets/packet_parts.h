@@ -1,4 +1,4 @@
-// The parts of a step's packet, docs/studio-protocol.md, "Binary messages".
+// The parts of a step's packet, docs/developer/studio-protocol.md, "Binary messages".
 #pragma once
 
 #include "espalier/geometry/plant_geometry.h"

@@ -1,6 +1,6 @@
 // What the page and the program tell each other, declared once. A struct tells its fields with their names, help and
-// ranges; that gives the JSON, the types of the page, the tables of docs/studio-protocol.md and the words of the
-// fuzzer:
+// ranges; that gives the JSON, the types of the page, the tables of docs/developer/studio-protocol.md and the words of
+// the fuzzer:
 //
 //   struct FrameRequest {
 //       static constexpr TypeName type{"FrameRequest", "a step of a growth"};

@@ -1,12 +1,28 @@
 #include "studio/server/page_files.h"
 
+// What systems call the section of constants, how it ends, and what they put before the names of C.
+#if defined(__APPLE__)
+#define ESPALIER_CONSTANTS ".section __TEXT,__const\n"
+#define ESPALIER_CONSTANTS_END ".previous\n"
+#elif defined(_WIN32)
+#define ESPALIER_CONSTANTS ".section .rdata,\"dr\"\n"
+#define ESPALIER_CONSTANTS_END ".text\n"
+#else
+#define ESPALIER_CONSTANTS ".section .rodata\n"
+#define ESPALIER_CONSTANTS_END ".previous\n"
+#endif
+#define ESPALIER_TEXT_OF(name) #name
+#define ESPALIER_TEXT(name) ESPALIER_TEXT_OF(name)
+#define ESPALIER_PREFIX ESPALIER_TEXT(__USER_LABEL_PREFIX__)
+
 // The assembler reads the files: a compiler would take seconds for as many characters.
-#define ESPALIER_PAGE_FILE(name, file)                                                       \
-    asm(".section .rodata\n" #name "_begin:\n.incbin \"" ESPALIER_PAGE "/" file "\"\n" #name \
-        "_end:\n.byte 0\n.previous\n");                                                      \
-    extern "C" {                                                                             \
-    extern const char name##_begin[] __attribute__((visibility("hidden")));                  \
-    extern const char name##_end[] __attribute__((visibility("hidden")));                    \
+#define ESPALIER_PAGE_FILE(name, file)                                                        \
+    asm(ESPALIER_CONSTANTS ESPALIER_PREFIX #name "_begin:\n.incbin \"" ESPALIER_PAGE "/" file \
+                                                 "\"\n" ESPALIER_PREFIX #name                 \
+                                                 "_end:\n.byte 0\n" ESPALIER_CONSTANTS_END);  \
+    extern "C" {                                                                              \
+    extern const char name##_begin[] __attribute__((visibility("hidden")));                   \
+    extern const char name##_end[] __attribute__((visibility("hidden")));                     \
     }
 
 ESPALIER_PAGE_FILE(espalier_studio_html, "index.html")

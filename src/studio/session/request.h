@@ -1,7 +1,7 @@
 // Requests of pages. A constant registers one, with what it takes, what it gives and the function that answers it:
 //   const Registered<RequestType> entry{request("look", "looks at a step", look)};
-// Nothing else is edited: the page's types, the table of docs/studio-protocol.md and the words of the fuzzer are made
-// from what is registered.
+// Nothing else is edited: the page's types, the table of docs/developer/studio-protocol.md and the words of the fuzzer
+// are made from what is registered.
 #pragma once
 
 #include "espalier/base/registry.h"

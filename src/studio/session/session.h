@@ -1,4 +1,4 @@
-// What the pages of a studio share: one document, its growths, and the requests of docs/studio-protocol.md.
+// What the pages of a studio share: one document, its growths, and the requests of docs/developer/studio-protocol.md.
 #pragma once
 
 #include "espalier/studio/studio.h"

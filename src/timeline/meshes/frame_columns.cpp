@@ -215,6 +215,7 @@ FrameGeometry FrameColumns::geometry() const {
         Column<float> values;
         of_points_.copy(one.name, values);
         geometry.parameters[one.name].assign(values.begin(), values.end());
+        if (!one.unit.empty() && one.unit != "1") geometry.units[one.name] = one.unit;
     }
     geometry.symbol_names = symbols_.names();
     geometry.texture_files = texture_files_;

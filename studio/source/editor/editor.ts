@@ -138,7 +138,8 @@ export class Editor {
       this.dispatchTo(key, { effects: markLines.of(lines) });
     }
     const first = places[0];
-    const key = first ? this.keyOf(first.file) : null;
+    if (!first) return;
+    const key = this.keyOf(first.file);
     if (key === null || key !== this.shown) return;
     const { doc } = this.view.state;
     if (first.line <= doc.lines)
@@ -173,7 +174,7 @@ export class Editor {
     for (const [path, text] of this.texts) {
       const content = this.stateOf(path)?.doc.toString() ?? "";
       if (!this.pending.has(path) && !text.agreement.ahead(content)) continue;
-      this.pending.delete(path);
+      this.setPending(path, false);
       text.agreement.send(content);
       this.changes.lasting(`text ${path}`, { texts: { [path]: content } }, `Edit ${shortName(path)}`);
     }
@@ -185,12 +186,19 @@ export class Editor {
     return this.changes.settle();
   }
 
+  /** Texts with changes that are not lasting yet. */
   private readonly pending = new Set<string>();
+
+  private setPending(path: string, pending: boolean): void {
+    if (pending) this.pending.add(path);
+    else this.pending.delete(path);
+    this.studio.emit("unsent", this.pending.size > 0);
+  }
 
   private typed(): void {
     const path = this.shown;
     if (path === null) return;
-    this.pending.add(path);
+    this.setPending(path, true);
     clearTimeout(this.soon);
     clearTimeout(this.later);
     this.soon = window.setTimeout(() => this.sendTransient(path), transientAfter);
@@ -218,7 +226,7 @@ export class Editor {
     const key = path.startsWith(`${this.documentPath}\n`) ? path.slice(this.documentPath.length + 1) : null;
     if (key === null || !this.texts.has(key) || this.contentOf(key) === content) return;
     this.setContent(key, content);
-    this.pending.add(key);
+    this.setPending(key, true);
     this.studio.tell("note", `Text of ${shortName(key)} that was typed while there was no connection is back.`);
   }
 
@@ -233,10 +241,14 @@ export class Editor {
     if (document.path !== this.documentPath) {
       this.documentPath = document.path;
       this.texts.clear();
-      this.pending.clear();
+      for (const path of this.pending) this.setPending(path, false);
       this.shown = null;
     }
-    for (const path of this.texts.keys()) if (!document.texts.some((file) => file.path === path)) this.texts.delete(path);
+    for (const path of this.texts.keys()) {
+      if (document.texts.some((file) => file.path === path)) continue;
+      this.texts.delete(path);
+      this.setPending(path, false);
+    }
     for (const file of document.texts) this.hearText(file);
     if (this.shown === null || !this.texts.has(this.shown)) this.showFirst(document);
     this.showAwaited();

@@ -20,13 +20,13 @@ function keysOf(help: string, part: string): Offer[] {
   const keys: Offer[] = [];
   let column = 0;
   for (const line of help.split("\n")) {
-    const found = /^(\s*)([a-z][\w-]*)( {2,})(\S.*)$/.exec(line);
+    const [, before, name, gap, summary] = /^(\s*)([a-z][\w-]*)( {2,})(\S.*)$/.exec(line) ?? [];
     const indentation = line.search(/\S/);
     const last = keys.at(-1);
     if (last && column > 0 && indentation >= column - 1) last.help += `\n${line.trim()}`;
-    else if (found) {
-      column = found[1].length + found[2].length + found[3].length;
-      keys.push({ name: found[2], summary: found[4], help: "", kind: "property" });
+    else if (before !== undefined && name && gap && summary) {
+      column = before.length + name.length + gap.length;
+      keys.push({ name, summary, help: "", kind: "property" });
     } else column = 0;
   }
   for (const key of keys) key.help = `${key.help}\n(${part})`.trim();
@@ -39,14 +39,14 @@ function tableHelp(scene: string, header: string): string {
   const blocks = scene.split(/\n(?=\s*\[)/);
   const of = (block: string) => (/^\s*\[+([^\]]*)\]/.exec(block)?.[1] ?? "").trim();
   const exact = blocks.find((block) => of(block) === name);
-  const wider = blocks.find((block) => of(block).includes("<") && name.startsWith(of(block).split("<")[0]));
+  const wider = blocks.find((block) => of(block).includes("<") && name.startsWith(of(block).replace(/<.*/, "")));
   return (exact ?? wider ?? "").replace(/^\s*\[+[^\]]*\]+[^\n]*/, "");
 }
 
 /** What a scene may say at a line: the keys of its table and of the part that the table names. */
 function sceneOffers(help: Help, lines: readonly string[], at: number): Offer[] {
   const headerAt = lines.slice(0, at + 1).findLastIndex((line) => /^\s*\[/.test(line));
-  const header = headerAt < 0 ? "" : lines[headerAt].trim();
+  const header = (lines[headerAt] ?? "").trim();
   const next = lines.findIndex((line, index) => index > headerAt && /^\s*\[/.test(line));
   const table = lines.slice(Math.max(0, headerAt), next < 0 ? undefined : next).join("\n");
   const parts = offers("class", [...help.processes, ...help.stages, ...(help.recorders ?? [])]);
@@ -107,8 +107,8 @@ function describe(entry: HelpEntry): HTMLElement {
 /** The names that the text itself defines. */
 function ownNames(text: string): Completion[] {
   const names = new Set<string>();
-  for (const match of text.matchAll(/^[ \t]*#[ \t]*define[ \t]+(\w+)/gm)) names.add(match[1]);
-  for (const match of text.matchAll(/\b([A-Z]\w*)\s*\(/g)) names.add(match[1]);
+  for (const match of text.matchAll(/^[ \t]*#[ \t]*define[ \t]+(\w+)/gm)) names.add(match[1] ?? "");
+  for (const match of text.matchAll(/\b([A-Z]\w*)\s*\(/g)) names.add(match[1] ?? "");
   return [...names].map((label) => ({ label, type: "variable", boost: 2 }));
 }
 

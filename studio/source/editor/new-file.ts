@@ -50,23 +50,25 @@ function colours(): string {
   return toBase64(new Uint8Array(768).map((_, i) => Math.floor(i / 3)));
 }
 
-/** The first of some names that a text does not use. */
-function free(candidates: readonly string[], used: RegExp, text: string): string {
+/** The first of some names that a text does not use; `most` if it uses all. */
+function free(candidates: readonly string[], most: string, used: RegExp, text: string): string {
   const taken = new Set([...text.matchAll(used)].map((match) => match[1]));
-  return candidates.find((candidate) => !taken.has(candidate)) ?? candidates[0];
+  return candidates.find((candidate) => !taken.has(candidate)) ?? most;
 }
 
 const numbers = Array.from({ length: 99 }, (_, i) => String(i + 1));
 const letters = [..."abcdefghijklmnopqrstuvwxyz"];
 
+const viewFile: Kind = {
+  title: "View file",
+  hint: "settings of the turtle, light, shapes",
+  extension: ".v",
+  content: () => "line style: cylinder\n",
+  line: () => "",
+};
+
 const kinds: Kind[] = [
-  {
-    title: "View file",
-    hint: "settings of the turtle, light, shapes",
-    extension: ".v",
-    content: () => "line style: cylinder\n",
-    line: () => "",
-  },
+  viewFile,
   {
     title: "Function",
     hint: "func(number, x) in the model",
@@ -79,14 +81,14 @@ const kinds: Kind[] = [
     hint: "@#(number): the cross-section of cylinders",
     extension: ".con",
     content: (name) => `cver 1 3\nname: ${name}\npoints: 4 4\ntype: cr\nsamples: 20\n1 0 0 1\n0 1 0 1\n-1 0 0 1\n0 -1 0 1\n`,
-    line: (file, view) => `contour: ${free(numbers, /contour:\s*(\d+)/g, view)} ${file}`,
+    line: (file, view) => `contour: ${free(numbers, "1", /contour:\s*(\d+)/g, view)} ${file}`,
   },
   {
     title: "Surface",
     hint: "~ and its letter: a leaf or petal",
     extension: ".s",
     content: surface,
-    line: (file, view) => `surface: ${free(letters, /surface:\s*(\S)/g, view)} ${file} 1`,
+    line: (file, view) => `surface: ${free(letters, "a", /surface:\s*(\S)/g, view)} ${file} 1`,
   },
   {
     title: "Bark",
@@ -159,8 +161,8 @@ async function make(studio: Studio, holder: FileHolder, kind: Kind, file: string
     const line = kind.line(file, text);
     if (line) holder.replace(view.path, `${text}${text === "" || text.endsWith("\n") ? "" : "\n"}${line}\n`);
   } else if (kind.line(file, "")) {
-    const name = `${suggestion(studio, kinds[0])}.v`;
-    await studio.ask("new-file", { name, content: `line style: cylinder\n${kind.line(file, "")}\n` });
+    const name = `${suggestion(studio, viewFile)}.v`;
+    await studio.ask("new-file", { name, content: `${viewFile.content(name)}${kind.line(file, "")}\n` });
   }
   explain(studio, kind, file);
   holder.show(made.path);
@@ -174,5 +176,5 @@ function explain(studio: Studio, kind: Kind, file: string): void {
   else if (kind.extension === ".mat")
     studio.tell("warning", `Write materials = "${file}" into the [[plant]] table of a scene: then its materials are used.`);
   else if (inScene && !viewOf(studio))
-    studio.tell("warning", `Write view = "${suggestion(studio, kinds[0])}.v" into the [[plant]] table: then the view file is used.`);
+    studio.tell("warning", `Write view = "${suggestion(studio, viewFile)}.v" into the [[plant]] table: then the view file is used.`);
 }

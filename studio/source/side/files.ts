@@ -1,5 +1,7 @@
 /** Reads the points of functions, contours and curves, and writes them back without touching the rest of the file. */
-import { clampedSpline, uniformSpline, type Place, type Point } from "./spline.js";
+import { at } from "../lists.js";
+import type { Vector } from "../view/index.js";
+import { clampedSpline, uniformSpline, type Point } from "./spline.js";
 
 export interface PointFile {
   name: string;
@@ -7,7 +9,7 @@ export interface PointFile {
   kind: "function" | "contour";
   closed: boolean;
   points: Point[];
-  curve: (points: readonly Point[]) => Place[];
+  curve: (points: readonly Point[]) => Vector[];
   /** The whole text with other points. */
   write: (points: readonly Point[]) => string;
 }
@@ -17,11 +19,14 @@ function numbersOf(line: string): number[] {
 }
 
 function settingIn(lines: readonly string[], from: number, key: string): { line: number; value: string } | null {
-  for (let i = from; i < lines.length; i++) {
-    if (!lines[i].startsWith(key)) continue;
-    return { line: i, value: lines[i].slice(key.length).trim() };
-  }
-  return null;
+  const line = lines.findIndex((text, index) => index >= from && text.startsWith(key));
+  return line < 0 ? null : { line, value: at(lines, line).slice(key.length).trim() };
+}
+
+/** The first line of numbers behind another line. */
+function firstNumbers(lines: readonly string[], behind: number): number {
+  const first = lines.findIndex((text, index) => index > behind && /^\s*[-+.\d]/.test(text));
+  return first < 0 ? lines.length : first;
 }
 
 function decimals(value: number): string {
@@ -57,7 +62,7 @@ function readFunction(lines: string[], from: number): PointFile | null {
     name: settingIn(lines, from, "name:")?.value || "function",
     kind: "function",
     closed: false,
-    points: rows.map(([x, y, times]) => ({ x, y, z: 0, times: times ?? 1 })),
+    points: rows.map(([x = 0, y = 0, times = 1]) => ({ x, y, z: 0, times })),
     curve: (points) => clampedSpline(points),
     write: writer(
       body,
@@ -71,9 +76,8 @@ function readContour(lines: string[]): PointFile | null {
   const found = settingIn(lines, 0, "points:");
   const type = settingIn(lines, 0, "type:");
   if (!found || !type) return null;
-  const count = numbersOf(found.value)[0];
-  let first = type.line + 1;
-  while (first < lines.length && !/^\s*[-+.\d]/.test(lines[first])) first++;
+  const [count = 0] = numbersOf(found.value);
+  const first = firstNumbers(lines, type.line);
   const rows = lines.slice(first, first + count).map(numbersOf);
   if (rows.length < count || rows.some((row) => row.length < 3 || row.some(Number.isNaN))) return null;
   const closed = type.value.startsWith("c");
@@ -82,7 +86,7 @@ function readContour(lines: string[]): PointFile | null {
     name: settingIn(lines, 0, "name:")?.value || "contour",
     kind: "contour",
     closed,
-    points: rows.map(([x, y, z, times]) => ({ x, y, z, times: times ?? 1 })),
+    points: rows.map(([x = 0, y = 0, z = 0, times = 1]) => ({ x, y, z, times })),
     curve: (points) => uniformSpline(points, closed),
     write: writer(
       { lines, countLine: found.line, first, count },
@@ -98,8 +102,7 @@ function readCurve(lines: string[]): PointFile | null {
   if (!found || !type) return null;
   const dimension = Number((settingIn(lines, 0, "dimension:") ?? settingIn(lines, 0, "dim:"))?.value ?? 2);
   const count = Number(found.value);
-  let first = type.line + 1;
-  while (first < lines.length && !/^\s*[-+.\d]/.test(lines[first])) first++;
+  const first = firstNumbers(lines, type.line);
   const rows = lines.slice(first, first + count).map(numbersOf);
   if (rows.length < count || rows.some((row) => row.length !== dimension || row.some(Number.isNaN))) return null;
   const closed = type.value === "bspline-closed";
@@ -107,7 +110,7 @@ function readCurve(lines: string[]): PointFile | null {
     name: "curve",
     kind: "contour",
     closed,
-    points: rows.map(([x, y, z, times]) => ({ x, y, z: z ?? 0, times: times ?? 1 })),
+    points: rows.map(([x = 0, y = 0, z = 0, times = 1]) => ({ x, y, z, times })),
     curve: (points) => (type.value === "bspline-endpoint" ? clampedSpline(points) : uniformSpline(points, closed)),
     write: writer(
       { lines, countLine: found.line, first, count },

@@ -1,14 +1,11 @@
 /** The editor of colour maps: 256 colours, of which ranges are blended from one colour to another. */
 import { h } from "../elements.js";
-import { fromBase64, toBase64 } from "../view/index.js";
+import { fromBase64, toBase64, vectorOf } from "../view/index.js";
+import { bytesOf, hexOf } from "./colours.js";
 import type { SideEditor, SideText } from "./side.js";
 
 const colours = 256;
 const perRow = 32;
-
-function hexOf(bytes: Uint8Array, index: number): string {
-  return `#${[0, 1, 2].map((k) => (bytes[3 * index + k] ?? 0).toString(16).padStart(2, "0")).join("")}`;
-}
 
 export class MapEditor implements SideEditor {
   readonly elements: Node[];
@@ -57,10 +54,14 @@ export class MapEditor implements SideEditor {
 
   refresh(): void {
     this.bytes = fromBase64(this.text.content());
-    this.cells.forEach((cell, index) => {
-      cell.style.background = hexOf(this.bytes, index);
-    });
+    this.paint();
     this.showRange();
+  }
+
+  private paint(): void {
+    this.cells.forEach((cell, index) => {
+      cell.style.background = hexOf(this.bytes, 3 * index);
+    });
   }
 
   private cell(index: number): HTMLButtonElement {
@@ -92,20 +93,22 @@ export class MapEditor implements SideEditor {
   private showRange(): void {
     const [from, to] = [Number(this.from.value), Number(this.to.value)];
     this.cells.forEach((cell, index) => cell.classList.toggle("chosen", index >= from && index <= to));
-    this.first.value = hexOf(this.bytes, from);
-    this.last.value = hexOf(this.bytes, to);
+    this.first.value = hexOf(this.bytes, 3 * from);
+    this.last.value = hexOf(this.bytes, 3 * to);
   }
 
   private blend(lasting: boolean): void {
     const [from, to] = [Number(this.from.value), Number(this.to.value)];
-    const value = (input: HTMLInputElement, k: number) => parseInt(input.value.slice(1 + 2 * k, 3 + 2 * k), 16);
+    const [start, end] = [bytesOf(this.first.value), bytesOf(this.last.value)];
     const last = from === to && document.activeElement === this.last ? this.last : null;
     for (let index = from; index <= to; index++) {
       const part = to > from ? (index - from) / (to - from) : last ? 1 : 0;
-      for (let k = 0; k < 3; k++)
-        this.bytes[3 * index + k] = Math.round(value(this.first, k) * (1 - part) + value(this.last, k) * part);
-      this.cells[index].style.background = hexOf(this.bytes, index);
+      this.bytes.set(
+        vectorOf((k) => Math.round(start[k] * (1 - part) + end[k] * part)),
+        3 * index,
+      );
     }
+    this.paint();
     this.text.change(toBase64(this.bytes), lasting);
   }
 }

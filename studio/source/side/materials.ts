@@ -1,6 +1,8 @@
 /** The editor of material files (docs/side-files.md): entries of fifteen bytes, each a material by its colour index. */
 import { fillSlider, h } from "../elements.js";
+import { at } from "../lists.js";
 import { fromBase64, toBase64 } from "../view/index.js";
+import { bytesOf, hexOf } from "./colours.js";
 import type { SideEditor, SideText } from "./side.js";
 
 const entry = 15;
@@ -58,8 +60,8 @@ export class MaterialEditor implements SideEditor {
     return index;
   }
 
-  private hex(at: number): string {
-    return `#${[0, 1, 2].map((k) => this.bytes[this.chosen * entry + at + k].toString(16).padStart(2, "0")).join("")}`;
+  private hex(place: number): string {
+    return hexOf(this.bytes, this.chosen * entry + place);
   }
 
   private draw(): void {
@@ -81,7 +83,7 @@ export class MaterialEditor implements SideEditor {
 
   private drawSwatches(): void {
     const shown = (i: number) => {
-      const part = (k: number) => Math.min(most, this.bytes[i * entry + 5 + k] + this.bytes[i * entry + 8 + k]);
+      const part = (k: number) => Math.min(most, at(this.bytes, i * entry + 5 + k) + at(this.bytes, i * entry + 8 + k));
       return `rgb(${part(0)}, ${part(1)}, ${part(2)})`;
     };
     this.swatches.replaceChildren(
@@ -109,10 +111,10 @@ export class MaterialEditor implements SideEditor {
     );
   }
 
-  private colour(name: string, at: number): HTMLElement {
-    const input = h("input", "", { type: "color", "aria-label": name, value: this.hex(at) });
+  private colour(name: string, place: number): HTMLElement {
+    const input = h("input", "", { type: "color", "aria-label": name, value: this.hex(place) });
     const send = (lasting: boolean) => () => {
-      for (let k = 0; k < 3; k++) this.put(at + k, parseInt(input.value.slice(1 + 2 * k, 3 + 2 * k), 16));
+      this.bytes.set(bytesOf(input.value), this.chosen * entry + place);
       this.send(lasting);
     };
     input.addEventListener("input", send(false));
@@ -120,14 +122,14 @@ export class MaterialEditor implements SideEditor {
     return input;
   }
 
-  private number(name: string, at: number): HTMLElement[] {
-    const value = this.bytes[this.chosen * entry + at];
+  private number(name: string, place: number): HTMLElement[] {
+    const value = this.bytes[this.chosen * entry + place];
     const slider = h("input", "", { type: "range", min: 0, max: most, step: 1, value, "aria-label": name });
     const field = h("output", "field-value", {}, String(value));
     const send = (lasting: boolean) => () => {
       fillSlider(slider);
       field.textContent = slider.value;
-      this.put(at, Number(slider.value));
+      this.put(place, Number(slider.value));
       this.send(lasting);
     };
     fillSlider(slider);
@@ -136,8 +138,8 @@ export class MaterialEditor implements SideEditor {
     return [slider, field];
   }
 
-  private put(at: number, value: number): void {
-    this.bytes[this.chosen * entry + at] = value;
+  private put(place: number, value: number): void {
+    this.bytes[this.chosen * entry + place] = value;
   }
 
   private send(lasting: boolean): void {

@@ -1,5 +1,8 @@
 /** A plane with a curve and points that are dragged with the pointer or moved with keys. */
 import { decimalField, h, numberIn } from "../elements.js";
+import { at } from "../lists.js";
+import type { Vector } from "../view/index.js";
+import { arrowStep } from "./arrows.js";
 import type { PointFile } from "./files.js";
 import type { Point } from "./spline.js";
 
@@ -25,9 +28,9 @@ interface View {
 function viewOf(file: PointFile): View {
   const xs = file.points.map(({ x }) => x);
   const ys = file.points.map(({ y }) => y);
-  const reach = (values: number[], least: number, most: number) => [Math.min(least, ...values), Math.max(most, ...values)];
-  const [left, right] = file.kind === "function" ? [0, 1] : reach(xs, 0, 0);
-  const [bottom, top] = file.kind === "function" ? reach(ys, 0, 1) : reach(ys, 0, 0);
+  const isFunction = file.kind === "function";
+  const [left, right] = isFunction ? [0, 1] : [Math.min(0, ...xs), Math.max(0, ...xs)];
+  const [bottom, top] = [Math.min(0, ...ys), Math.max(isFunction ? 1 : 0, ...ys)];
   let perX = (width - 2 * border) / Math.max(right - left, 1e-9);
   let perY = (height - 2 * border) / Math.max(top - bottom, 1e-9);
   if (file.kind === "contour") perX = perY = 0.8 * Math.min(perX, perY);
@@ -104,14 +107,13 @@ export class PointPlane {
     return [px / this.view.perX + this.view.left, (height - py) / this.view.perY + this.view.bottom];
   }
 
-  private path(places: readonly (readonly number[])[], close: boolean): string {
-    const parts = places.map(
-      ([x, y], i) =>
-        `${i === 0 ? "M" : "L"}${this.toPicture(x, y)
-          .map((v) => v.toFixed(2))
-          .join(" ")}`,
+  private path(places: readonly Vector[], close: boolean): string {
+    const parts = places.map(([x, y]) =>
+      this.toPicture(x, y)
+        .map((value) => value.toFixed(2))
+        .join(" "),
     );
-    return parts.join("") + (close ? "Z" : "");
+    return parts.length > 0 ? `M${parts.join("L")}${close ? "Z" : ""}` : "";
   }
 
   private draw(): void {
@@ -122,17 +124,16 @@ export class PointPlane {
     const frame = svg("path", {
       class: "frame",
       d: this.path(
-        this.points.map(({ x, y }) => [x, y]),
+        this.points.map(({ x, y, z }) => [x, y, z]),
         this.file.closed,
       ),
     });
     const curve = svg("path", { class: "curve", d: this.path(this.file.curve(this.points), this.file.closed) });
-    this.picture.replaceChildren(axes, unit, frame, curve, ...this.points.map((_, index) => this.handle(index)));
+    this.picture.replaceChildren(axes, unit, frame, curve, ...this.points.map((point, index) => this.handle(point, index)));
     this.showFields();
   }
 
-  private handle(index: number): SVGElement {
-    const { x, y, times } = this.points[index];
+  private handle({ x, y, times }: Point, index: number): SVGElement {
     const [cx, cy] = this.toPicture(x, y);
     const circle = svg("circle", {
       cx,
@@ -186,18 +187,13 @@ export class PointPlane {
 
   private key(event: KeyboardEvent, index: number): void {
     const by = (event.shiftKey ? 10 : 1) / 100;
-    const steps: Record<string, [number, number]> = {
-      ArrowLeft: [-by, 0],
-      ArrowRight: [by, 0],
-      ArrowUp: [0, by],
-      ArrowDown: [0, -by],
-    };
+    const step = arrowStep(event.key, by);
     if (event.key === "Delete" || event.key === "Backspace") this.remove();
     else if (event.key === "Insert") this.add();
-    else if (event.key in steps) {
+    else if (step) {
       const span = this.file.kind === "function" ? 1 : width / this.view.perX / 3;
-      const { x, y } = this.points[index];
-      this.move(index, x + steps[event.key][0] * span, y + steps[event.key][1] * span, true);
+      const { x, y } = at(this.points, index);
+      this.move(index, x + step[0] * span, y - step[1] * span, true);
       this.focusPoint(index);
     } else return;
     event.preventDefault();
@@ -209,7 +205,7 @@ export class PointPlane {
 
   /** The x of a function grows from 0 to 1. */
   private move(index: number, x: number, y: number, lasting: boolean): void {
-    const point = this.points[index];
+    const point = at(this.points, index);
     if (this.file.kind === "function") {
       const [before, after] = [this.points[index - 1]?.x ?? 0, this.points[index + 1]?.x ?? 1];
       const end = index === 0 ? 0 : index === this.points.length - 1 ? 1 : null;
@@ -234,12 +230,9 @@ export class PointPlane {
   }
 
   private add(): void {
-    const next = this.points[this.chosen + 1] ?? this.points[this.chosen - 1];
-    const { x, y, z } = this.points[this.chosen];
-    this.insert(
-      { x: (x + next.x) / 2, y: (y + next.y) / 2, z: (z + next.z) / 2, times: 1 },
-      this.chosen + (this.points[this.chosen + 1] ? 1 : 0),
-    );
+    const from = Math.min(this.chosen, this.points.length - 2);
+    const [a, b] = [at(this.points, from), at(this.points, from + 1)];
+    this.insert({ x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, z: (a.z + b.z) / 2, times: 1 }, from + 1);
   }
 
   private addAt(event: MouseEvent): void {
@@ -251,7 +244,7 @@ export class PointPlane {
     }
     // Between the two neighbours that are nearest together with the new point.
     const away = (i: number) => {
-      const [a, b] = [this.points[i], this.points[(i + 1) % this.points.length]];
+      const [a, b] = [at(this.points, i), at(this.points, (i + 1) % this.points.length)];
       return Math.hypot(a.x - x, a.y - y) + Math.hypot(b.x - x, b.y - y) - Math.hypot(a.x - b.x, a.y - b.y);
     };
     const spans = this.points.map((_, i) => i).slice(0, this.file.closed ? undefined : -1);

@@ -1,6 +1,7 @@
 /** Editors above the texts of side files: points to drag, colours, forms. */
 import { h } from "../elements.js";
 import { readPoints } from "./files.js";
+import { at } from "../lists.js";
 import type { Help } from "../protocol.js";
 import { MapEditor } from "./map.js";
 import { MaterialEditor } from "./materials.js";
@@ -26,10 +27,10 @@ const none: SideEditor = { elements: [], refresh: () => undefined };
 function planeEditor(text: SideText): SideEditor {
   const read = () => readPoints(text.path, text.content());
   let files = read();
-  if (files.length === 0) return none;
-  let at = 0;
-  const make = () => new PointPlane(files[at], text.change);
-  let plane = make();
+  const [first] = files;
+  if (!first) return none;
+  let shown = 0;
+  let plane = new PointPlane(first, text.change);
   const holder = h("div", "", {}, plane.element);
   const choice = h(
     "select",
@@ -38,8 +39,8 @@ function planeEditor(text: SideText): SideEditor {
     ...files.map(({ name }, index) => h("option", "", { value: index }, name)),
   );
   choice.addEventListener("change", () => {
-    at = choice.selectedIndex;
-    plane = make();
+    shown = choice.selectedIndex;
+    plane = new PointPlane(at(files, shown), text.change);
     holder.replaceChildren(plane.element);
   });
   choice.hidden = files.length < 2;
@@ -47,7 +48,7 @@ function planeEditor(text: SideText): SideEditor {
     const now = read();
     if (now.length !== files.length) return;
     files = now;
-    plane.refresh(files[at]);
+    plane.refresh(at(files, shown));
   };
   return { elements: [choice, holder], refresh };
 }

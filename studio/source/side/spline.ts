@@ -1,4 +1,6 @@
 /** Cubic B-splines as the side files define them (docs/side-files.md). */
+import { at } from "../lists.js";
+import { vectorOf, type Vector } from "../view/index.js";
 
 export interface Point {
   x: number;
@@ -8,24 +10,22 @@ export interface Point {
   times: number;
 }
 
-export type Place = readonly [number, number, number];
 
-function expanded(points: readonly Point[]): Place[] {
-  return points.flatMap(({ x, y, z, times }) => Array.from({ length: Math.max(1, times) }, (): Place => [x, y, z]));
+function expanded(points: readonly Point[]): Vector[] {
+  return points.flatMap(({ x, y, z, times }) => Array.from({ length: Math.max(1, times) }, (): Vector => [x, y, z]));
 }
 
-function mixed(points: readonly Place[], weights: readonly number[]): Place {
-  const sum = (k: 0 | 1 | 2) => points.reduce((total, point, i) => total + point[k] * weights[i], 0);
-  return [sum(0), sum(1), sum(2)];
+function mixed(points: readonly Vector[], weights: readonly number[]): Vector {
+  return vectorOf((k) => points.reduce((total, point, i) => total + point[k] * at(weights, i), 0));
 }
 
 /** Uniform: four points make a segment, which does not reach the outer ones. */
-export function uniformSpline(points: readonly Point[], closed: boolean, perSegment = 12): Place[] {
+export function uniformSpline(points: readonly Point[], closed: boolean, perSegment = 12): Vector[] {
   const all = expanded(points);
   const segments = closed ? all.length : all.length - 3;
-  const curve: Place[] = [];
+  const curve: Vector[] = [];
   for (let i = 0; i < segments; i++) {
-    const four = [0, 1, 2, 3].map((k) => all[(i + k) % all.length]);
+    const four = [0, 1, 2, 3].map((k) => at(all, (i + k) % all.length));
     for (let j = 0; j <= perSegment; j++) {
       const u = j / perSegment;
       curve.push(
@@ -36,26 +36,25 @@ export function uniformSpline(points: readonly Point[], closed: boolean, perSegm
   return curve;
 }
 
-/** One point of the spline that reaches its ends, by de Boor's algorithm; `at` from 0 to 1. */
-function clampedPoint(all: readonly Place[], at: number): Place {
+/** One point of the spline that reaches its ends, by de Boor's algorithm; `part` from 0 to 1. */
+function clampedPoint(all: readonly Vector[], part: number): Vector {
   const spans = all.length - 3;
-  const u = Math.min(at * spans, spans - 1e-9);
+  const u = Math.min(part * spans, spans - 1e-9);
   const span = Math.floor(u);
   const knot = (i: number) => Math.min(spans, Math.max(0, i - 3));
-  const four = [0, 1, 2, 3].map((k) => all[span + k]);
+  let mixes = [0, 1, 2, 3].map((k) => at(all, span + k));
   for (let level = 1; level <= 3; level++)
-    for (let k = 3; k >= level; k--) {
-      const i = span + k;
-      const from = knot(i);
-      const width = knot(i + 4 - level) - from;
-      const part = width > 0 ? (u - from) / width : 0;
-      four[k] = mixed([four[k - 1], four[k]], [1 - part, part]);
-    }
-  return four[3];
+    mixes = mixes.slice(1).map((point, k) => {
+      const from = knot(span + level + k);
+      const width = knot(span + k + 4) - from;
+      const share = width > 0 ? (u - from) / width : 0;
+      return mixed([at(mixes, k), point], [1 - share, share]);
+    });
+  return at(mixes, 0);
 }
 
 /** The spline of functions: it begins in the first and ends in the last point. */
-export function clampedSpline(points: readonly Point[], samples = 160): Place[] {
+export function clampedSpline(points: readonly Point[], samples = 160): Vector[] {
   const all = expanded(points);
   if (all.length < 4) return all;
   return Array.from({ length: samples + 1 }, (_, i) => clampedPoint(all, i / samples));

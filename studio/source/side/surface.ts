@@ -1,35 +1,37 @@
 /** The editor of Bézier surfaces: sixteen points a patch, dragged in the plane of the picture, which turns. */
 import { h } from "../elements.js";
+import { at } from "../lists.js";
+import { axes, vectorOf, type Vector } from "../view/index.js";
+import { arrowStep } from "./arrows.js";
 import type { SideEditor, SideText } from "./side.js";
-
-type Triple = [number, number, number];
 
 interface Patch {
   name: string;
   /** Where its 48 numbers stand in the text. */
   from: number;
   to: number;
-  points: Triple[];
+  points: Vector[];
 }
 
 const number = String.raw`[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?`;
-const block = new RegExp(String.raw`BR:\s*\S+\s+((?:${number}\s+){47}${number})`, "g");
+const blocks = new RegExp(String.raw`BR:\s*\S+\s+((?:${number}\s+){47}${number})`, "g");
 
 function patchesOf(text: string): Patch[] {
   const patches: Patch[] = [];
-  for (const match of text.matchAll(block)) {
-    const values = match[1].trim().split(/\s+/).map(Number);
-    const from = match.index + match[0].length - match[1].length;
+  for (const match of text.matchAll(blocks)) {
+    const [whole, block = ""] = match;
+    const values = block.trim().split(/\s+/).map(Number);
+    const from = match.index + whole.length - block.length;
     const before = text.slice(0, match.index);
     const name =
       /(\S+)\s+TOP COLOR:[\s\S]*$/.exec(before.slice(before.lastIndexOf("TOP COLOR:") - 80))?.[1] ?? `patch ${patches.length + 1}`;
-    const points = Array.from({ length: 16 }, (_, i): Triple => [values[3 * i], values[3 * i + 1], values[3 * i + 2]]);
-    patches.push({ name, from, to: from + match[1].length, points });
+    const points = Array.from({ length: 16 }, (_, i) => vectorOf((k) => at(values, 3 * i + k)));
+    patches.push({ name, from, to: from + block.length, points });
   }
   return patches;
 }
 
-function written(points: readonly Triple[]): string {
+function written(points: readonly Vector[]): string {
   const rows = [0, 4, 8, 12].map((row) =>
     points
       .slice(row, row + 4)
@@ -39,17 +41,14 @@ function written(points: readonly Triple[]): string {
   return rows.join("\n");
 }
 
-function bernstein(t: number): number[] {
+function bernstein(t: number): [number, number, number, number] {
   const s = 1 - t;
   return [s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t];
 }
 
-function surfaceAt(points: readonly Triple[], s: number, t: number): Triple {
-  const [bs, bt] = [bernstein(s), bernstein(t)];
-  const sum: Triple = [0, 0, 0];
-  for (let i = 0; i < 4; i++)
-    for (let j = 0; j < 4; j++) for (let k = 0; k < 3; k++) sum[k] += bs[i] * bt[j] * points[4 * i + j][k];
-  return sum;
+function surfaceAt(points: readonly Vector[], s: number, t: number): Vector {
+  const weights = bernstein(s).flatMap((row) => bernstein(t).map((column) => row * column));
+  return vectorOf((k) => weights.reduce((sum, weight, i) => sum + weight * at(points, i)[k], 0));
 }
 
 const space = "http://www.w3.org/2000/svg";
@@ -61,7 +60,7 @@ export class SurfaceEditor implements SideEditor {
   private patches: Patch[];
   private azimuth = 0.5;
   private elevation = 0.4;
-  private centre: Triple = [0, 0, 0];
+  private centre: Vector = [0, 0, 0];
   private scale = 1;
   private dragging = false;
 
@@ -113,14 +112,14 @@ export class SurfaceEditor implements SideEditor {
   private frame(): void {
     const all = this.patches.flatMap(({ points }) => points);
     if (all.length === 0) return;
-    const least = [0, 1, 2].map((k) => Math.min(...all.map((point) => point[k])));
-    const most = [0, 1, 2].map((k) => Math.max(...all.map((point) => point[k])));
-    this.centre = [0, 1, 2].map((k) => (least[k] + most[k]) / 2) as Triple;
-    this.scale = (size * 0.55) / Math.max(Math.hypot(...[0, 1, 2].map((k) => most[k] - least[k])), 1e-9);
+    const least = vectorOf((k) => Math.min(...all.map((point) => point[k])));
+    const most = vectorOf((k) => Math.max(...all.map((point) => point[k])));
+    this.centre = vectorOf((k) => (least[k] + most[k]) / 2);
+    this.scale = (size * 0.55) / Math.max(Math.hypot(...vectorOf((k) => most[k] - least[k])), 1e-9);
   }
 
   /** The axes of the picture in space: right and up. */
-  private axes(): [Triple, Triple] {
+  private picturePlane(): [Vector, Vector] {
     const [ca, sa, ce, se] = [Math.cos(this.azimuth), Math.sin(this.azimuth), Math.cos(this.elevation), Math.sin(this.elevation)];
     return [
       [ca, 0, -sa],
@@ -128,10 +127,9 @@ export class SurfaceEditor implements SideEditor {
     ];
   }
 
-  private project(point: Triple): [number, number] {
-    const [right, up] = this.axes();
-    const from = point.map((value, k) => value - this.centre[k]);
-    const dot = (axis: Triple) => axis.reduce((sum, value, k) => sum + value * from[k], 0) * this.scale;
+  private project(point: Vector): [number, number] {
+    const [right, up] = this.picturePlane();
+    const dot = (axis: Vector) => axes.reduce<number>((sum, k) => sum + axis[k] * (point[k] - this.centre[k]), 0) * this.scale;
     return [size / 2 + dot(right), size * 0.375 - dot(up)];
   }
 
@@ -145,14 +143,16 @@ export class SurfaceEditor implements SideEditor {
         );
       }
     }
-    this.patches.forEach((patch, which) => patch.points.forEach((_, index) => parts.push(this.handle(which, index))));
+    this.patches.forEach((patch, which) =>
+      patch.points.forEach((point, index) => parts.push(this.handle(patch.name, point, which, index))),
+    );
     this.picture.replaceChildren(...parts);
   }
 
-  private line(at: (t: number) => Triple): SVGElement {
+  private line(point: (t: number) => Vector): SVGElement {
     const path = document.createElementNS(space, "path");
     const places = Array.from({ length: 13 }, (_, j) =>
-      this.project(at(j / 12))
+      this.project(point(j / 12))
         .map((v) => v.toFixed(1))
         .join(" "),
     );
@@ -161,9 +161,8 @@ export class SurfaceEditor implements SideEditor {
     return path;
   }
 
-  private handle(which: number, index: number): SVGElement {
+  private handle(patch: string, point: Vector, which: number, index: number): SVGElement {
     const circle = document.createElementNS(space, "circle");
-    const point = this.patches[which].points[index];
     const [x, y] = this.project(point);
     const facts = {
       cx: x,
@@ -173,7 +172,7 @@ export class SurfaceEditor implements SideEditor {
       role: "slider",
       class: "point",
       "data-at": `${which}-${index}`,
-      "aria-label": `Point ${Math.floor(index / 4) + 1}, ${(index % 4) + 1} of ${this.patches[which].name}`,
+      "aria-label": `Point ${Math.floor(index / 4) + 1}, ${(index % 4) + 1} of ${patch}`,
       "aria-valuetext": point.map((value) => value.toFixed(2)).join(", "),
     };
     for (const [name, value] of Object.entries(facts)) circle.setAttribute(name, String(value));
@@ -183,21 +182,15 @@ export class SurfaceEditor implements SideEditor {
   }
 
   private move(which: number, index: number, dx: number, dy: number): void {
-    const [right, up] = this.axes();
-    const point = this.patches[which].points[index];
-    for (let k = 0; k < 3; k++) point[k] += (right[k] * dx - up[k] * dy) / this.scale;
+    const [right, up] = this.picturePlane();
+    const { points } = at(this.patches, which);
+    const point = at(points, index);
+    points[index] = vectorOf((k) => point[k] + (right[k] * dx - up[k] * dy) / this.scale);
     this.draw();
   }
 
   private key(event: KeyboardEvent, which: number, index: number): void {
-    const by = event.shiftKey ? 10 : 2;
-    const steps: Record<string, [number, number]> = {
-      ArrowLeft: [-by, 0],
-      ArrowRight: [by, 0],
-      ArrowUp: [0, -by],
-      ArrowDown: [0, by],
-    };
-    const step = steps[event.key];
+    const step = arrowStep(event.key, event.shiftKey ? 10 : 2);
     if (!step) return;
     event.preventDefault();
     this.move(which, index, ...step);
@@ -262,8 +255,8 @@ export class SurfaceEditor implements SideEditor {
     let text = this.text.content();
     const places = patchesOf(text);
     if (places.length !== this.patches.length) return;
-    for (let i = places.length - 1; i >= 0; i--)
-      text = text.slice(0, places[i].from) + written(this.patches[i].points) + text.slice(places[i].to);
+    for (const [i, { from, to }] of [...places.entries()].reverse())
+      text = text.slice(0, from) + written(at(this.patches, i).points) + text.slice(to);
     this.text.change(text, lasting);
   }
 }

@@ -28,10 +28,10 @@ function wordsFrom(text: string, at: number, count: number): { words: string[]; 
   const words: string[] = [];
   let to = at;
   while (words.length < count) {
-    while (at < text.length && separators.test(text[at]) && (count < Infinity || text[at] !== "\n")) at++;
+    while (at < text.length && separators.test(text.charAt(at)) && (count < Infinity || text[at] !== "\n")) at++;
     if (at >= text.length || (count === Infinity && text[at] === "\n")) break;
     const begin = at;
-    while (at < text.length && !separators.test(text[at])) at++;
+    while (at < text.length && !separators.test(text.charAt(at))) at++;
     words.push(text.slice(begin, at));
     to = at;
   }
@@ -62,8 +62,8 @@ export function withValues(text: string, setting: ViewSetting, written: Written 
 /** The text without a setting, and without its line if nothing else stands there. */
 export function without(text: string, written: Written): string {
   let { from, to } = written;
-  while (from > 0 && " \t".includes(text[from - 1])) from--;
-  while (to < text.length && " \t".includes(text[to])) to++;
+  while (/[ \t]/.test(text.charAt(from - 1))) from--;
+  while (/[ \t]/.test(text.charAt(to))) to++;
   const alone = (from === 0 || text[from - 1] === "\n") && (to === text.length || text[to] === "\n");
   return text.slice(0, from) + text.slice(alone ? to + 1 : to);
 }

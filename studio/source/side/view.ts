@@ -1,6 +1,7 @@
 /** The form of a view file: its settings with what they mean, as the program says it. To change one changes the text. */
 import { decimalField, fillSlider, h, iconButton, numberIn } from "../elements.js";
 import type { Help, ViewSetting, ViewValue } from "../protocol.js";
+import { bytesOf, hexOf } from "./colours.js";
 import type { SideEditor, SideText } from "./side.js";
 import { byLetter, without, withValues, writtenSettings, type Written } from "./view-text.js";
 
@@ -17,15 +18,14 @@ function rank({ kind }: ViewSetting): number {
   return kind === "letters" ? 0 : kind === "colour" ? 1 : 2;
 }
 
-function hexOf(values: readonly string[]): string {
+function hexOfWords(values: readonly string[]): string {
   const numbers = values.map(Number);
   const most = Math.max(...numbers) > 1 ? 255 : 1;
-  const byte = (value: number) => Math.round((255 * Math.min(most, Math.max(0, value))) / most);
-  return `#${[0, 1, 2].map((k) => byte(numbers[k] || 0).toString(16).padStart(2, "0")).join("")}`;
+  return hexOf(numbers.map((value) => Math.round((255 * Math.min(most, Math.max(0, value || 0))) / most)));
 }
 
 function colourOf(hex: string): string {
-  return [1, 3, 5].map((at) => String(Number((parseInt(hex.slice(at, at + 2), 16) / 255).toFixed(3)))).join(" ");
+  return bytesOf(hex).map((byte) => String(Number((byte / 255).toFixed(3)))).join(" ");
 }
 
 function isNumber(text: string): boolean {
@@ -68,7 +68,7 @@ function vectorControl(value: ViewValue, values: readonly string[], label: strin
 
 function colourControl(value: ViewValue, values: readonly string[], label: string, send: Send): HTMLElement[] {
   const shown = values.length === 3 && values.every(isNumber) ? values : value.standard.split(" ");
-  const input = h("input", "", { type: "color", "aria-label": label, value: hexOf(shown) });
+  const input = h("input", "", { type: "color", "aria-label": label, value: hexOfWords(shown) });
   input.addEventListener("input", () => send(colourOf(input.value), false));
   input.addEventListener("change", () => send(colourOf(input.value), true));
   return [input];

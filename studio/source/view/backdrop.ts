@@ -1,6 +1,8 @@
 /** The background: a soft gradient behind everything. */
 import { BufferGeometry, Color, GLSL3, Mesh, RawShaderMaterial } from "three";
 import type { Theme } from "./colours.js";
+import { setBytes } from "./shading.js";
+import type { Vector } from "./vectors.js";
 
 const vertex = /* glsl */ `
 precision highp float;
@@ -21,10 +23,6 @@ void main() {
   result = vec4(mix(horizon, top, smoothstep(0.1, 1.0, height)), 1.0);
 }
 `;
-
-function setBytes(colour: Color, hex: number): void {
-  colour.setRGB(((hex >> 16) & 255) / 255, ((hex >> 8) & 255) / 255, (hex & 255) / 255);
-}
 
 export class Backdrop {
   readonly mesh: Mesh;
@@ -48,11 +46,11 @@ export class Backdrop {
   }
 
   /** The colours of the theme, or one colour from 0 to 1. */
-  use(theme: Theme, colour: readonly number[] | null): void {
+  use(theme: Theme, colour: Vector | null): void {
     setBytes(this.top, theme.background);
     setBytes(this.horizon, theme.horizon);
     if (!colour) return;
-    this.top.setRGB(colour[0], colour[1], colour[2]);
+    this.top.setRGB(...colour);
     this.horizon.copy(this.top);
   }
 }

@@ -1,6 +1,6 @@
 /** A camera that turns around a target. The world's y axis points up. */
 import { PerspectiveCamera, Vector3 } from "three";
-import type { Vector } from "./packets.js";
+import type { Vector } from "./vectors.js";
 
 export interface CameraState {
   target: Vector;

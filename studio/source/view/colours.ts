@@ -1,20 +1,20 @@
 /** Colour maps that are even to the eye, and the colours of the two themes. */
+import { at } from "../lists.js";
+import { vectorOf, type Vector } from "./vectors.js";
 
 /** Nine colours of viridis (Smith & van der Walt 2015, matplotlib), evenly spaced. */
 const viridis = ["440154", "472d7b", "3b528b", "2c728e", "21918c", "28ae80", "5ec962", "addc30", "fde725"];
 
-export type Rgb = [number, number, number];
-
-function parse(hex: string): Rgb {
-  return [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16)) as Rgb;
+function parse(hex: string): Vector {
+  return vectorOf((k) => parseInt(hex.slice(2 * k, 2 * k + 2), 16));
 }
 
 /** The colour at a part between 0 and 1, as bytes. */
-export function mapColour(part: number): Rgb {
+export function mapColour(part: number): Vector {
   const place = Math.min(1, Math.max(0, part)) * (viridis.length - 1);
   const index = Math.min(viridis.length - 2, Math.floor(place));
-  const [from, to] = [parse(viridis[index]), parse(viridis[index + 1])];
-  return from.map((value, k) => Math.round(value + (to[k] - value) * (place - index))) as Rgb;
+  const [from, to] = [parse(at(viridis, index)), parse(at(viridis, index + 1))];
+  return vectorOf((k) => Math.round(from[k] + (to[k] - from[k]) * (place - index)));
 }
 
 /** 256 colours with opacity for a texture. */

@@ -15,12 +15,13 @@ import {
 } from "three";
 import { isosurface } from "./isosurface.js";
 import type { Field } from "./packets.js";
-import type { Uniforms } from "./shading.js";
+import type { SharedUniforms } from "./shading.js";
+import type { Axis } from "./vectors.js";
 
 export interface FieldLook {
   mode: "slice" | "cloud" | "surface";
   /** 0, 1, 2: the axis that the slice is perpendicular to. */
-  axis: number;
+  axis: Axis;
   /** From 0 to 1: where the slice is, or between which of the lowest and highest value the surface. */
   at: number;
 }
@@ -112,8 +113,23 @@ void main() {
 }
 `;
 
+function uniformsOf({ colourMap, pixel, eye, sun }: SharedUniforms) {
+  return {
+    field: { value: new Data3DTexture(new Uint8Array(1), 1, 1, 1) },
+    colourMap,
+    pixel,
+    eye,
+    sun,
+    lower: { value: new Vector3() },
+    upper: { value: new Vector3() },
+    size: { value: new Vector3(1, 1, 1) },
+    axis: { value: 1 },
+    at: { value: 0.5 },
+  };
+}
+
 export class FieldView {
-  private readonly uniforms: Uniforms;
+  private readonly uniforms: ReturnType<typeof uniformsOf>;
   private readonly slice: Mesh;
   private readonly cloud: Points;
   private readonly surface: Mesh;
@@ -121,19 +137,8 @@ export class FieldView {
   /** The level of the surface that there is. */
   private level = -1;
 
-  constructor(shared: Uniforms, scene: Scene) {
-    this.uniforms = {
-      field: { value: new Data3DTexture(new Uint8Array(1), 1, 1, 1) },
-      colourMap: shared.colourMap,
-      pixel: shared.pixel,
-      eye: shared.eye,
-      sun: shared.sun,
-      lower: { value: new Vector3() },
-      upper: { value: new Vector3() },
-      size: { value: new Vector3(1, 1, 1) },
-      axis: { value: 1 },
-      at: { value: 0.5 },
-    };
+  constructor(shared: SharedUniforms, scene: Scene) {
+    this.uniforms = uniformsOf(shared);
     const square = new BufferGeometry();
     square.setIndex([0, 1, 2, 2, 1, 3]);
     this.slice = new Mesh(square, this.material(sliceVertex, sliceFragment));
@@ -151,7 +156,7 @@ export class FieldView {
     const [columns, rows, layers] = field.size;
     this.field = field;
     this.level = -1;
-    (this.uniforms.field.value as Data3DTexture).dispose();
+    this.uniforms.field.value.dispose();
     const texture = new Data3DTexture(field.values as Uint8Array<ArrayBuffer>, columns, rows, layers);
     texture.format = RedFormat;
     texture.minFilter = LinearFilter;
@@ -159,9 +164,9 @@ export class FieldView {
     texture.unpackAlignment = 1;
     texture.needsUpdate = true;
     this.uniforms.field.value = texture;
-    (this.uniforms.lower.value as Vector3).set(...field.lower);
-    (this.uniforms.upper.value as Vector3).set(...field.upper);
-    (this.uniforms.size.value as Vector3).set(columns, rows, layers);
+    this.uniforms.lower.value.set(...field.lower);
+    this.uniforms.upper.value.set(...field.upper);
+    this.uniforms.size.value.set(columns, rows, layers);
     this.cloud.geometry.setDrawRange(0, columns * rows * layers);
   }
 

@@ -15,10 +15,11 @@ import {
   WebGLRenderTarget,
   type Camera,
   type ShaderMaterialParameters,
+  type Texture,
   type WebGLRenderer,
 } from "three";
 import type { Theme } from "./colours.js";
-import type { Uniforms } from "./shading.js";
+import { setBytes, type SharedUniforms } from "./shading.js";
 
 const vertex = /* glsl */ `
 precision highp float;
@@ -91,6 +92,19 @@ export function niceLength(length: number): number {
   return factor * power;
 }
 
+function uniformsOf({ shadowMap, shadowMatrix, shadowed }: SharedUniforms) {
+  return {
+    shadowMap,
+    shadowMatrix,
+    shadowed,
+    shade: { value: null as Texture | null },
+    colour: { value: new Color() },
+    centre: { value: new Vector3() },
+    extent: { value: 10 },
+    cell: { value: 1 },
+  };
+}
+
 export class Ground {
   /** Drawn before the plant, so that roots are seen through it. */
   readonly mesh: Mesh;
@@ -98,19 +112,10 @@ export class Ground {
   readonly veil: Mesh;
   private readonly shadeTarget = new WebGLRenderTarget(512, 512, { depthBuffer: false });
   private readonly shadeScene = new Scene();
-  private readonly uniforms: Uniforms;
+  private readonly uniforms: ReturnType<typeof uniformsOf>;
 
-  constructor(shared: Uniforms) {
-    this.uniforms = {
-      shadowMap: shared.shadowMap,
-      shadowMatrix: shared.shadowMatrix,
-      shadowed: shared.shadowed,
-      shade: { value: null },
-      colour: { value: new Color() },
-      centre: { value: new Vector3() },
-      extent: { value: 10 },
-      cell: { value: 1 },
-    };
+  constructor(shared: SharedUniforms) {
+    this.uniforms = uniformsOf(shared);
     this.shadeScene.add(this.plane(1, shadeFragment, { blending: NoBlending, depthTest: false }));
     this.mesh = this.plane(1, fragment, {
       blending: CustomBlending,
@@ -150,17 +155,16 @@ export class Ground {
 
   /** The side of a square of the grid in metres. */
   get cell(): number {
-    return this.uniforms.cell.value as number;
+    return this.uniforms.cell.value;
   }
 
   place(centre: Vector3, radius: number): void {
-    (this.uniforms.centre.value as Vector3).copy(centre);
+    this.uniforms.centre.value.copy(centre);
     this.uniforms.extent.value = radius * 8;
     this.uniforms.cell.value = niceLength(radius * 1.2);
   }
 
   useTheme(theme: Theme): void {
-    const hex = theme.ground;
-    (this.uniforms.colour.value as Color).setRGB(((hex >> 16) & 255) / 255, ((hex >> 8) & 255) / 255, (hex & 255) / 255);
+    setBytes(this.uniforms.colour.value, theme.ground);
   }
 }

@@ -4,6 +4,7 @@ export { mapGradient, mapColour, themes, type Theme } from "./colours.js";
 export { niceLength } from "./ground.js";
 export type { FieldLook } from "./fields.js";
 export * from "./packets.js";
+export * from "./vectors.js";
 export type { PictureSource } from "./pictures.js";
 export { PlantScene, type AuthorLook } from "./scene3d.js";
 export { steer } from "./steer.js";

@@ -14,8 +14,10 @@ import {
   UnsignedIntType,
   Vector3,
 } from "three";
+import { at, increase } from "../lists.js";
 import type { Packet } from "./packets.js";
-import { plantMaterial, type Uniforms } from "./shading.js";
+import { plantMaterial, type SharedUniforms } from "./shading.js";
+import { vectorOf } from "./vectors.js";
 
 const perRow = 680; // internodes; three texels each, below the 2048 that every card has
 
@@ -163,22 +165,22 @@ class Order {
     const { thicker } = this;
     thicker.fill(0);
     const bucketOf = (i: number) => {
-      const radii = records[i * 6 + 3];
+      const radii = at(records, i * 6 + 3);
       return buckets - 1 - (Math.max(radii & 65535, radii >>> 16) >> 6);
     };
-    for (let i = 0; i < count; i++) thicker[bucketOf(i) + 1]++;
-    for (let bucket = 0; bucket < buckets; bucket++) thicker[bucket + 1] += thicker[bucket];
+    for (let i = 0; i < count; i++) increase(thicker, bucketOf(i) + 1, 1);
+    for (let bucket = 0; bucket < buckets; bucket++) increase(thicker, bucket + 1, at(thicker, bucket));
     const next = thicker.slice();
     for (let i = 0; i < count; i++) {
-      const at = next[bucketOf(i)]++ * 6;
-      for (let k = 0; k < 6; k++) target[at + k] = records[i * 6 + k];
+      const place = increase(next, bucketOf(i), 1) * 6;
+      for (let k = 0; k < 6; k++) target[place + k] = at(records, i * 6 + k);
     }
   }
 
   /** How many internodes may be thicker than a part of the thickest. */
   above(part: number): number {
     if (part >= 1) return 0;
-    return this.thicker[buckets - (Math.floor(Math.max(0, part) * 65535) >> 6)];
+    return at(this.thicker, buckets - (Math.floor(Math.max(0, part) * 65535) >> 6));
   }
 }
 
@@ -187,23 +189,27 @@ function unbounded(object: Mesh | LineSegments): void {
   object.visible = false;
 }
 
+function uniformsOf(shared: SharedUniforms) {
+  return {
+    ...shared,
+    records: { value: recordTexture(new Uint32Array(0), 1) },
+    lower: { value: new Vector3() },
+    size: { value: new Vector3(1, 1, 1) },
+    thickest: { value: 0 },
+  };
+}
+
 export class Internodes {
   readonly thick: Mesh;
   readonly thin: LineSegments;
-  private readonly uniforms: Uniforms;
+  private readonly uniforms: ReturnType<typeof uniformsOf>;
   private readonly order = new Order();
   private packet: Packet | null = null;
   private capacity = 0;
   private rows = 0;
 
-  constructor(shared: Uniforms) {
-    this.uniforms = {
-      ...shared,
-      records: { value: recordTexture(new Uint32Array(0), 1) },
-      lower: { value: new Vector3() },
-      size: { value: new Vector3(1, 1, 1) },
-      thickest: { value: 0 },
-    };
+  constructor(shared: SharedUniforms) {
+    this.uniforms = uniformsOf(shared);
     const { uniforms } = this;
     this.thick = new Mesh(
       new BufferGeometry(),
@@ -220,15 +226,11 @@ export class Internodes {
   show(packet: Packet): void {
     this.packet = packet;
     this.reserve(packet.internodeCount);
-    const texture = this.uniforms.records.value as DataTexture;
+    const texture = this.uniforms.records.value;
     this.order.sort(packet.internodes, packet.internodeCount, texture.image.data as unknown as Uint32Array);
     texture.needsUpdate = true;
-    (this.uniforms.lower.value as Vector3).set(...packet.lower);
-    (this.uniforms.size.value as Vector3).set(
-      packet.upper[0] - packet.lower[0],
-      packet.upper[1] - packet.lower[1],
-      packet.upper[2] - packet.lower[2],
-    );
+    this.uniforms.lower.value.set(...packet.lower);
+    this.uniforms.size.value.set(...vectorOf((k) => packet.upper[k] - packet.lower[k]));
     this.uniforms.thickest.value = packet.radius;
   }
 
@@ -255,7 +257,7 @@ export class Internodes {
   private reserve(count: number): void {
     const rows = Math.max(1, Math.ceil(count / perRow));
     if (rows > this.rows || rows * 4 < this.rows) {
-      (this.uniforms.records.value as DataTexture).dispose();
+      this.uniforms.records.value.dispose();
       this.rows = rows > 1 ? Math.ceil(rows * 1.3) : 1;
       this.uniforms.records.value = recordTexture(new Uint32Array(0), this.rows);
     }

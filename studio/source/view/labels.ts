@@ -12,7 +12,7 @@ import {
 } from "three";
 import type { Theme } from "./colours.js";
 import type { Label } from "./packets.js";
-import type { Uniforms } from "./shading.js";
+import { setBytes, type SharedUniforms } from "./shading.js";
 
 const most = 300; // as in rendered pictures
 const [rowHeight, width] = [40, 1024]; // pixels of the sheet, which has two for each of the screen
@@ -49,13 +49,17 @@ void main() {
 }
 `;
 
+function uniformsOf({ screenPixel }: SharedUniforms) {
+  return { screenPixel, sheet: { value: null as CanvasTexture | null }, halo: { value: new Color(1, 1, 1) } };
+}
+
 export class Labels {
   readonly mesh: Mesh<BufferGeometry, RawShaderMaterial>;
   private readonly canvas = document.createElement("canvas");
-  private readonly uniforms: Uniforms;
+  private readonly uniforms: ReturnType<typeof uniformsOf>;
 
-  constructor(shared: Uniforms) {
-    this.uniforms = { screenPixel: shared.screenPixel, sheet: { value: null }, halo: { value: new Color(1, 1, 1) } };
+  constructor(shared: SharedUniforms) {
+    this.uniforms = uniformsOf(shared);
     const material = new RawShaderMaterial({
       glslVersion: GLSL3,
       uniforms: this.uniforms,
@@ -73,8 +77,7 @@ export class Labels {
   }
 
   useTheme(theme: Theme): void {
-    const hex = theme.horizon;
-    (this.uniforms.halo.value as Color).setRGB(((hex >> 16) & 255) / 255, ((hex >> 8) & 255) / 255, (hex & 255) / 255);
+    setBytes(this.uniforms.halo.value, theme.horizon);
   }
 
   get empty(): boolean {
@@ -95,7 +98,7 @@ export class Labels {
     for (const { position, colour, text } of labels) {
       const { row, wide } = rows.get(text) ?? { row: 0, wide: 0 };
       const first = places.length / 3;
-      for (const [x, y] of [[0, 0], [1, 0], [0, 1], [1, 1]]) {
+      for (const [x, y] of [[0, 0], [1, 0], [0, 1], [1, 1]] as const) {
         places.push(...position);
         shifts.push((x * wide) / 2, (y * rowHeight - border) / 2);
         onSheet.push((x * wide) / width, 1 - ((row + 1 - y) * rowHeight) / this.canvas.height);
@@ -134,7 +137,7 @@ export class Labels {
       pen.globalCompositeOperation = "source-over";
       rows.set(text, { row, wide: Math.min(width, pen.measureText(text).width + 2 * border) });
     });
-    (this.uniforms.sheet.value as CanvasTexture | null)?.dispose();
+    this.uniforms.sheet.value?.dispose();
     const sheet = new CanvasTexture(this.canvas);
     sheet.minFilter = LinearFilter;
     sheet.generateMipmaps = false;

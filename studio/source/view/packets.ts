@@ -1,6 +1,6 @@
-/** Reads the binary messages of the protocol (docs/studio-protocol.md). Arrays are views of the message: nothing is copied. */
-
-export type Vector = readonly [number, number, number];
+/** Reads the binary messages of the protocol (docs/developer/studio-protocol.md). Arrays are views of the message: nothing is copied. */
+import { at } from "../lists.js";
+import { axes, vectorOf, type Axis, type Box, type Vector } from "./vectors.js";
 
 export interface ShapeGroup {
   shape: number;
@@ -171,7 +171,11 @@ export function readMessage(buffer: ArrayBuffer): BinaryMessage {
 function readPacket(reader: Reader, message: ArrayBuffer): Packet {
   const growth = reader.u32();
   const step = reader.i32();
-  const [plantCount, internodeCount, vertices, indexCount, groupCount] = reader.numbers(5);
+  const plantCount = reader.u32();
+  const internodeCount = reader.u32();
+  const vertices = reader.u32();
+  const indexCount = reader.u32();
+  const groupCount = reader.u32();
   const lower = reader.vector();
   const upper = reader.vector();
   const radius = reader.f32();
@@ -184,10 +188,12 @@ function readPacket(reader: Reader, message: ArrayBuffer): Packet {
   const indices = reader.numbers(indexCount);
   const groups: ShapeGroup[] = [];
   for (let i = 0; i < groupCount; i++) groups.push(readGroup(reader));
-  const [rangeCount, labelCount, texturedLimbs] = reader.numbers(3);
+  const rangeCount = reader.u32();
+  const labelCount = reader.u32();
+  const texturedLimbs = reader.u32() > 0;
   const textured = readRanges(reader, rangeCount);
   const onPicture = rangeCount > 0 ? reader.floats(vertices * 2) : null;
-  if (texturedLimbs > 0) reader.bytes(Math.ceil(internodeCount / 2) * 4);
+  if (texturedLimbs) reader.bytes(Math.ceil(internodeCount / 2) * 4);
   const labels: Label[] = [];
   for (let i = 0; i < labelCount; i++) labels.push(readLabel(reader));
   const plain = textured[0]?.first ?? indexCount;
@@ -211,7 +217,7 @@ function readPacket(reader: Reader, message: ArrayBuffer): Packet {
     ranges: [{ texture: 0, first: 0, count: plain }, ...textured],
     onPicture,
     groups,
-    texturedLimbs: texturedLimbs > 0,
+    texturedLimbs,
     labels,
   };
 }
@@ -222,15 +228,17 @@ function readRanges(reader: Reader, count: number): TextureRange[] {
 
 function readLabel(reader: Reader): Label {
   const position = reader.vector();
-  const [red, green, blue] = reader.bytes(4);
-  return { position, colour: [red, green, blue], module: reader.u32(), text: reader.name() };
+  const colour = reader.bytes(4);
+  return { position, colour: vectorOf((k) => at(colour, k)), module: reader.u32(), text: reader.name() };
 }
 
 function readLimbs(reader: Reader, message: ArrayBuffer): Limbs {
   const growth = reader.u32();
   const step = reader.i32();
   const smooth = reader.u32() > 0;
-  const [vertices, indexCount, rangeCount] = reader.numbers(3);
+  const vertices = reader.u32();
+  const indexCount = reader.u32();
+  const rangeCount = reader.u32();
   const ranges = readRanges(reader, rangeCount);
   return {
     kind: "limbs",
@@ -308,44 +316,32 @@ export function triangleCount(packet: Packet): number {
   return packet.indices.length / 3;
 }
 
-export interface Box {
-  lower: Vector;
-  upper: Vector;
-}
-
 /** The box of everything in a packet, or null if it is empty. `boxOf` knows the boxes of shapes. */
 export function boundsOf(packet: Packet, boxOf: (shape: number) => Box): Box | null {
   const lower: [number, number, number] = [Infinity, Infinity, Infinity];
   const upper: [number, number, number] = [-Infinity, -Infinity, -Infinity];
-  const add = (x: number, y: number, z: number, reach: number) => {
-    const point = [x, y, z];
-    for (let k = 0; k < 3; k++) {
-      lower[k] = Math.min(lower[k], point[k] - reach);
-      upper[k] = Math.max(upper[k], point[k] + reach);
-    }
+  const add = (k: Axis, value: number, reach: number) => {
+    lower[k] = Math.min(lower[k], value - reach);
+    upper[k] = Math.max(upper[k], value + reach);
   };
-  if (packet.internodeCount > 0) {
-    add(...packet.lower, packet.radius);
-    add(...packet.upper, packet.radius);
-  }
+  if (packet.internodeCount > 0)
+    for (const k of axes) {
+      add(k, packet.lower[k], packet.radius);
+      add(k, packet.upper[k], packet.radius);
+    }
   const { positions } = packet;
-  for (let i = 0; i < positions.length; i += 3) add(positions[i], positions[i + 1], positions[i + 2], 0);
+  for (let i = 0; i < positions.length; i += 3) for (const k of axes) add(k, at(positions, i + k), 0);
   for (const { shape, matrices } of packet.groups) {
     const box = boxOf(shape);
-    const [middle, half] = [0.5, -0.5].map((sign) => box.upper.map((value, k) => 0.5 * value + sign * box.lower[k]));
-    for (let i = 0; i < matrices.length; i += 12) {
-      for (let k = 0; k < 3; k++) {
+    const middle = vectorOf((k) => (box.upper[k] + box.lower[k]) / 2);
+    const half = vectorOf((k) => (box.upper[k] - box.lower[k]) / 2);
+    for (let i = 0; i < matrices.length; i += 12)
+      for (const k of axes) {
         const row = i + 4 * k;
-        let centre = matrices[row + 3];
-        let reach = 0;
-        for (let j = 0; j < 3; j++) {
-          centre += matrices[row + j] * middle[j];
-          reach += Math.abs(matrices[row + j]) * half[j];
-        }
-        lower[k] = Math.min(lower[k], centre - reach);
-        upper[k] = Math.max(upper[k], centre + reach);
+        const along = (j: Axis) => at(matrices, row + j);
+        const centre = at(matrices, row + 3) + axes.reduce<number>((sum, j) => sum + along(j) * middle[j], 0);
+        add(k, centre, axes.reduce<number>((sum, j) => sum + Math.abs(along(j)) * half[j], 0));
       }
-    }
   }
   return Number.isFinite(lower[0]) ? { lower, upper } : null;
 }

@@ -41,12 +41,21 @@ async function imageTexture(blob: Blob): Promise<Texture> {
 
 export class Pictures {
   private known: Known[] = [];
+  private loading = 0;
 
-  /** The pictures of a growth, which surfaces count from 1. `changed` is called when one has been read. */
-  set(sources: readonly PictureSource[], changed: () => void): void {
+  /** `changed` is called when a picture has been read. */
+  constructor(private readonly changed: () => void) {}
+
+  /** Whether some have not been read yet. */
+  get areLoading(): boolean {
+    return this.loading > 0;
+  }
+
+  /** The pictures of a growth, which surfaces count from 1. */
+  set(sources: readonly PictureSource[]): void {
     const before = this.known;
     this.known = sources.map(
-      (source, i) => before.find((known, k) => k === i && sameSource(known.source, source)) ?? this.load(source, changed),
+      (source, i) => before.find((known, k) => k === i && sameSource(known.source, source)) ?? this.load(source),
     );
     for (const old of before) if (!this.known.includes(old)) release(old);
   }
@@ -63,17 +72,23 @@ export class Pictures {
     return Boolean(this.known[number - 1]?.source.normals);
   }
 
-  private load(source: PictureSource, changed: () => void): Known {
+  private load(source: PictureSource): Known {
     const known: Known = { source, colours: { value: white }, normals: { value: flat } };
-    for (const part of ["colours", "normals"] as const)
-      source[part]?.then(imageTexture).then(
-        (texture) => {
-          known[part].value = texture;
-          changed();
-        },
-        () => undefined,
-      );
+    for (const part of ["colours", "normals"] as const) void this.read(source[part], known[part]);
     return known;
+  }
+
+  /** A picture that cannot be read stays white or flat. */
+  private async read(source: Promise<Blob> | null, target: IUniform<Texture>): Promise<void> {
+    if (!source) return;
+    this.loading++;
+    try {
+      target.value = await imageTexture(await source);
+    } catch {
+      // The program has said why.
+    }
+    this.loading--;
+    this.changed();
   }
 }
 

@@ -1,4 +1,5 @@
 /** Plays a growth that was recorded in an HTML file: no server is needed. */
+import { at } from "../lists.js";
 import type { CameraState } from "./camera.js";
 import { themes, type Theme } from "./colours.js";
 import { decompress, fromBase64 } from "./compression.js";
@@ -56,7 +57,7 @@ class Player {
   async start(): Promise<void> {
     const { images, reliefs, light } = this.recording;
     this.scene.setAuthor(light);
-    this.scene.setPictures(images.map((text, i) => ({ colours: blobOf(text), normals: blobOf(reliefs[i]) })));
+    this.scene.setPictures(images.map((text, i) => ({ colours: blobOf(text), normals: blobOf(reliefs[i] ?? "") })));
     for (const text of this.recording.limbs) {
       const message = readMessage(await unpack(text));
       if (message.kind === "limbs") this.limbs.set(message.step, message);
@@ -91,7 +92,7 @@ class Player {
   private packet(index: number): Promise<Packet> {
     let packet = this.packets.get(index);
     if (!packet) {
-      packet = unpack(this.recording.packets[index]).then((buffer) => {
+      packet = unpack(at(this.recording.packets, index)).then((buffer) => {
         const message = readMessage(buffer);
         if (message.kind !== "packet") throw new Error("The recording is broken.");
         return message;

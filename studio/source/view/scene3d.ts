@@ -3,14 +3,12 @@ import {
   Matrix4,
   OrthographicCamera,
   Scene,
-  type Vector2,
   Vector3,
-  type Vector4,
   WebGLRenderer,
   WebGLRenderTarget,
   type Camera,
-  type DataTexture,
 } from "three";
+import { at } from "../lists.js";
 import { Backdrop } from "./backdrop.js";
 import { OrbitCamera } from "./camera.js";
 import { themes, type Theme } from "./colours.js";
@@ -18,11 +16,12 @@ import { FieldView, type FieldLook } from "./fields.js";
 import { Ground } from "./ground.js";
 import { Internodes } from "./internodes.js";
 import { Labels } from "./labels.js";
-import { boundsOf, type Box, type Column, type Field, type Limbs, type Packet, type Shape, type Vector } from "./packets.js";
+import { boundsOf, type Column, type Field, type Limbs, type Packet, type Shape } from "./packets.js";
 import { Pictures, type PictureSource } from "./pictures.js";
 import { markTable, Pass, shadowDepth, sharedUniforms, useTheme, valueTable } from "./shading.js";
 import { Shapes } from "./shapes.js";
 import { Triangles } from "./triangles.js";
+import { around, sameBox, sameVector, vectorOf, type Box, type Vector } from "./vectors.js";
 
 const shadowSize = 1024;
 const pickReach = 4; // pixels around the pointer
@@ -49,13 +48,6 @@ export interface AuthorLook {
 const usualSun = new Vector3(0.45, 0.8, 0.4).normalize();
 const lowestSun = Math.sin((5 * Math.PI) / 180); // shadows of a lower one would be endless
 
-/** The smallest box around two. */
-function around(a: Box, b: Box): Box {
-  const least = (k: 0 | 1 | 2) => Math.min(a.lower[k], b.lower[k]);
-  const most = (k: 0 | 1 | 2) => Math.max(a.upper[k], b.upper[k]);
-  return { lower: [least(0), least(1), least(2)], upper: [most(0), most(1), most(2)] };
-}
-
 export class PlantScene {
   readonly orbit: OrbitCamera;
   /** Called after a frame was drawn. */
@@ -66,7 +58,10 @@ export class PlantScene {
   private readonly backdrop = new Backdrop();
   private readonly ground: Ground;
   private readonly internodes: Internodes;
-  private readonly pictures = new Pictures();
+  private readonly pictures = new Pictures(() => {
+    this.shadowStale = true;
+    this.request();
+  });
   private readonly triangles: Triangles;
   /** Limbs with bark or skin, instead of the internodes. */
   private readonly limbs: Triangles;
@@ -130,7 +125,7 @@ export class PlantScene {
 
   /** What the view file of the model says. Another place of the eye is taken at once. */
   setAuthor(author: AuthorLook): void {
-    const moved = this.packet !== null && String(author.towardsEye) !== String(this.author.towardsEye);
+    const moved = this.packet !== null && !sameVector(author.towardsEye, this.author.towardsEye);
     this.author = author;
     this.setAuthorLight(this.authorLight);
     if (moved && this.frame) this.home();
@@ -145,7 +140,7 @@ export class PlantScene {
   /** Whether light and background are those of the view file. */
   setAuthorLight(on: boolean): void {
     this.authorLight = on;
-    const sun = this.uniforms.sun.value as Vector3;
+    const sun = this.uniforms.sun.value;
     sun.copy(usualSun);
     if (on && this.author.towardsLight) {
       sun.set(...this.author.towardsLight).normalize();
@@ -172,10 +167,8 @@ export class PlantScene {
 
   /** The pictures that a growth wears. */
   setPictures(sources: readonly PictureSource[]): void {
-    this.pictures.set(sources, () => {
-      this.shadowStale = true;
-      this.request();
-    });
+    this.pictures.set(sources);
+    this.request();
   }
 
   /** Draws a packet from now on. The camera stays, except for the first one. */
@@ -233,11 +226,11 @@ export class PlantScene {
   /** Colours modules by a column, by the order of branching, or as the model does. */
   colourBy(by: Column | "order" | null, range?: [number, number]): void {
     this.uniforms.colouring.value = by === null ? 0 : by === "order" ? 2 : 1;
-    if (by === "order") (this.uniforms.range.value as Vector2).set(0, range ? range[1] : 6);
+    if (by === "order") this.uniforms.range.value.set(0, range ? range[1] : 6);
     if (by !== null && by !== "order") {
-      (this.uniforms.values.value as DataTexture).dispose();
+      this.uniforms.values.value.dispose();
       this.uniforms.values.value = valueTable(by.values);
-      (this.uniforms.range.value as Vector2).set(...(range ?? [by.lowest, by.highest]));
+      this.uniforms.range.value.set(...(range ?? [by.lowest, by.highest]));
     }
     this.request();
   }
@@ -250,7 +243,7 @@ export class PlantScene {
       const marks = new Uint8Array(highest + 1);
       for (const sibling of siblings) marks[sibling] = 2;
       marks[module] = 1;
-      (this.uniforms.marks.value as DataTexture).dispose();
+      this.uniforms.marks.value.dispose();
       this.uniforms.marks.value = markTable(marks);
     }
     this.request();
@@ -319,7 +312,7 @@ export class PlantScene {
 
   /** Tells in the page whether the picture is as it will stay. */
   private noteRest(rests: boolean): void {
-    this.canvas.toggleAttribute("data-draws", !rests);
+    this.canvas.toggleAttribute("data-draws", !rests || this.pictures.areLoading);
   }
 
   /** Without a graphics card, smooth edges wait until the picture rests. */
@@ -378,8 +371,9 @@ export class PlantScene {
 
   /** A drawing in the plane x y: it is looked at from the front and stands on no ground. */
   private isFlat(): boolean {
-    if (!this.bounds) return false;
-    const size = this.bounds.upper.map((value, k) => value - (this.bounds?.lower[k] ?? 0));
+    const { bounds } = this;
+    if (!bounds) return false;
+    const size = vectorOf((k) => bounds.upper[k] - bounds.lower[k]);
     return size[2] < 0.01 * Math.max(size[0], size[1]) && size[0] > 0.05 * size[1];
   }
 
@@ -396,15 +390,14 @@ export class PlantScene {
     const before = this.frame;
     this.frame = before ? around(before, this.bounds) : this.bounds;
     if (!before) this.orbit.home(this.frame.lower, this.frame.upper, this.isFlat(), this.author.towardsEye);
-    else if (String([this.frame.lower, this.frame.upper]) !== String([before.lower, before.upper]))
-      this.orbit.fit(this.frame.lower, this.frame.upper);
+    else if (!sameBox(this.frame, before)) this.orbit.fit(this.frame.lower, this.frame.upper);
   }
 
   private highestModule(): number {
     const { packet } = this;
     if (!packet) return 0;
     let highest = 0;
-    for (let i = 5; i < packet.internodes.length; i += 6) highest = Math.max(highest, packet.internodes[i]);
+    for (let i = 5; i < packet.internodes.length; i += 6) highest = Math.max(highest, at(packet.internodes, i));
     for (const module of packet.modules) highest = Math.max(highest, module);
     for (const group of packet.groups) for (const module of group.modules) highest = Math.max(highest, module);
     return highest;
@@ -414,7 +407,7 @@ export class PlantScene {
     const centre = new Vector3((lower[0] + upper[0]) / 2, (lower[1] + upper[1]) / 2, (lower[2] + upper[2]) / 2);
     const radius = Math.max(0.5 * Math.hypot(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]), 1e-4);
     this.ground.place(centre, radius);
-    const sun = this.uniforms.sun.value as Vector3;
+    const sun = this.uniforms.sun.value;
     const camera = this.shadowCamera;
     camera.left = camera.bottom = -radius;
     camera.right = camera.top = radius;
@@ -426,7 +419,7 @@ export class PlantScene {
     camera.updateProjectionMatrix();
     camera.updateMatrixWorld();
     const toTexture = new Matrix4().set(0.5, 0, 0, 0.5, 0, 0.5, 0, 0.5, 0, 0, 0.5, 0.5, 0, 0, 0, 1);
-    (this.uniforms.shadowMatrix.value as Matrix4)
+    this.uniforms.shadowMatrix.value
       .copy(toTexture)
       .multiply(camera.projectionMatrix)
       .multiply(camera.matrixWorldInverse);
@@ -449,7 +442,7 @@ export class PlantScene {
     const picture = pass === Pass.picture;
     this.uniforms.pass.value = pass;
     this.setEye(pass === Pass.shadow);
-    this.internodes.choose(pass === Pass.shadow ? null : this.orbit.camera.position, this.uniforms.pixel.value as number);
+    this.internodes.choose(pass === Pass.shadow ? null : this.orbit.camera.position, this.uniforms.pixel.value);
     if (this.limbs.mesh.visible) this.internodes.thick.visible = this.internodes.thin.visible = false;
     this.labels.mesh.visible = picture && this.labelsShown && !this.labels.empty;
     this.backdrop.mesh.visible = picture;
@@ -463,9 +456,9 @@ export class PlantScene {
   }
 
   private setEye(parallel: boolean): void {
-    const eye = this.uniforms.eye.value as Vector4;
+    const eye = this.uniforms.eye.value;
     if (parallel) {
-      eye.set(...(this.uniforms.sun.value as Vector3).toArray(), 0);
+      eye.set(...this.uniforms.sun.value.toArray(), 0);
       this.uniforms.pixel.value = (this.shadowCamera.right * 2) / shadowSize;
       return;
     }

@@ -73,10 +73,8 @@ export function shadowDepth(size: number): DepthTexture {
   return texture;
 }
 
-export type Uniforms = Record<string, IUniform>;
-
 /** Uniforms that every material of a scene shares by reference. */
-export function sharedUniforms(): Uniforms {
+export function sharedUniforms() {
   return {
     pass: { value: Pass.picture },
     eye: { value: new Vector4(0, 0, 1, 0) },
@@ -101,18 +99,25 @@ export function sharedUniforms(): Uniforms {
   };
 }
 
+export type SharedUniforms = ReturnType<typeof sharedUniforms>;
+
+/** Sets a colour to one that is written as 0xrrggbb, without a change of colour space. */
+export function setBytes(target: Color, hex: number): void {
+  target.setRGB(((hex >> 16) & 255) / 255, ((hex >> 8) & 255) / 255, (hex & 255) / 255);
+}
+
 /** The shaders compute with squares of the colours, which is near enough to linear light. */
 function squared(target: Color, hex: number): void {
-  target.setRGB(((hex >> 16) & 255) / 255, ((hex >> 8) & 255) / 255, (hex & 255) / 255);
+  setBytes(target, hex);
   target.setRGB(target.r * target.r, target.g * target.g, target.b * target.b);
 }
 
-export function useTheme(uniforms: Uniforms, theme: Theme): void {
-  squared(uniforms.sunColour.value as Color, theme.sun);
-  squared(uniforms.skyColour.value as Color, theme.sky);
-  squared(uniforms.soilColour.value as Color, theme.soil);
-  squared(uniforms.markColour.value as Color, theme.mark);
-  squared(uniforms.kinColour.value as Color, theme.kin);
+export function useTheme(uniforms: SharedUniforms, theme: Theme): void {
+  squared(uniforms.sunColour.value, theme.sun);
+  squared(uniforms.skyColour.value, theme.sky);
+  squared(uniforms.soilColour.value, theme.soil);
+  squared(uniforms.markColour.value, theme.mark);
+  squared(uniforms.kinColour.value, theme.kin);
 }
 
 const vertexHead = /* glsl */ `
@@ -209,7 +214,7 @@ void thin(float opacity) {
 `;
 
 export interface ShaderParts {
-  uniforms: Uniforms;
+  uniforms: Record<string, IUniform>;
   vertex: string;
   fragment: string;
 }

@@ -11,9 +11,11 @@ import {
   type Scene,
   type Texture,
 } from "three";
-import type { Box, Packet, Shape, ShapeGroup } from "./packets.js";
+import { at } from "../lists.js";
+import type { Packet, Shape, ShapeGroup } from "./packets.js";
 import type { Pictures } from "./pictures.js";
-import { plantMaterial, surfaceFragment, type Uniforms } from "./shading.js";
+import { plantMaterial, surfaceFragment, type SharedUniforms } from "./shading.js";
+import { vectorOf, type Box } from "./vectors.js";
 
 const perRow = 512;
 
@@ -74,14 +76,12 @@ interface Corners {
 }
 
 function boxOf({ positions }: Shape): Box {
-  const bound = (k: number, pick: (...values: number[]) => number, start: number) => {
+  const bound = (first: number, pick: (...values: number[]) => number, start: number) => {
     let found = start;
-    for (let i = k; i < positions.length; i += 3) found = pick(found, positions[i]);
+    for (let i = first; i < positions.length; i += 3) found = pick(found, at(positions, i));
     return found;
   };
-  const least = (k: number) => bound(k, Math.min, Infinity);
-  const most = (k: number) => bound(k, Math.max, -Infinity);
-  return { lower: [least(0), least(1), least(2)], upper: [most(0), most(1), most(2)] };
+  return { lower: vectorOf((k) => bound(k, Math.min, Infinity)), upper: vectorOf((k) => bound(k, Math.max, -Infinity)) };
 }
 
 /** The corners of the triangles of a shape, one after the other. */
@@ -89,11 +89,11 @@ function cornersOf(shape: Shape): Corners {
   const count = shape.indices.length;
   const values = new Float32Array(count * 8);
   for (let i = 0; i < count; i++) {
-    const at = shape.indices[i] * 3;
-    values.set(shape.positions.subarray(at, at + 3), i * 8);
-    values.set(shape.normals.subarray(at, at + 3), i * 8 + 4);
-    values[i * 8 + 3] = shape.texture[shape.indices[i] * 2] ?? 0;
-    values[i * 8 + 7] = shape.texture[shape.indices[i] * 2 + 1] ?? 0;
+    const vertex = at(shape.indices, i);
+    values.set(shape.positions.subarray(vertex * 3, vertex * 3 + 3), i * 8);
+    values.set(shape.normals.subarray(vertex * 3, vertex * 3 + 3), i * 8 + 4);
+    values[i * 8 + 3] = shape.texture[vertex * 2] ?? 0;
+    values[i * 8 + 7] = shape.texture[vertex * 2 + 1] ?? 0;
   }
   return { box: boxOf(shape), vertices: shape.positions.length / 3, count, image: shape.image, texture: floatTexture(values, count * 2, perRow * 2) };
 }
@@ -153,35 +153,37 @@ function sphere(): Shape {
 
 class GroupMesh {
   readonly mesh: Mesh;
-  private readonly uniforms: Uniforms;
+  private readonly rows: DataTexture;
+  private readonly facts: DataTexture;
 
-  constructor(shared: Uniforms, group: ShapeGroup, corners: Corners, image: IUniform<Texture>) {
+  constructor(shared: SharedUniforms, group: ShapeGroup, corners: Corners, image: IUniform<Texture>) {
     const facts = new Uint32Array(Math.ceil(group.count / perRow) * perRow * 2);
     const tints = new DataView(group.colours.buffer, group.colours.byteOffset, group.colours.byteLength);
     for (let i = 0; i < group.count; i++) {
       facts[i * 2] = tints.getUint32(i * 4, true);
-      facts[i * 2 + 1] = group.modules[i];
+      facts[i * 2 + 1] = at(group.modules, i);
     }
-    const factTexture = new DataTexture(facts, perRow, facts.length / 2 / perRow, RGIntegerFormat, UnsignedIntType);
-    factTexture.internalFormat = "RG32UI";
-    factTexture.needsUpdate = true;
-    this.uniforms = {
+    this.facts = new DataTexture(facts, perRow, facts.length / 2 / perRow, RGIntegerFormat, UnsignedIntType);
+    this.facts.internalFormat = "RG32UI";
+    this.facts.needsUpdate = true;
+    this.rows = floatTexture(group.matrices, group.count * 3, perRow * 3);
+    const uniforms = {
       ...shared,
       corners: { value: corners.texture },
       image,
-      rows: { value: floatTexture(group.matrices, group.count * 3, perRow * 3) },
-      facts: { value: factTexture },
+      rows: { value: this.rows },
+      facts: { value: this.facts },
       cornersEach: { value: corners.count },
     };
     const geometry = new BufferGeometry();
     geometry.setDrawRange(0, group.count * corners.count);
-    this.mesh = new Mesh(geometry, plantMaterial({ uniforms: this.uniforms, vertex, fragment }));
+    this.mesh = new Mesh(geometry, plantMaterial({ uniforms, vertex, fragment }));
     this.mesh.frustumCulled = false;
   }
 
   dispose(): void {
-    (this.uniforms.rows.value as DataTexture).dispose();
-    (this.uniforms.facts.value as DataTexture).dispose();
+    this.rows.dispose();
+    this.facts.dispose();
     (this.mesh.material as { dispose(): void }).dispose();
     this.mesh.geometry.dispose();
   }
@@ -192,7 +194,7 @@ export class Shapes {
   private groups: GroupMesh[] = [];
 
   constructor(
-    private readonly shared: Uniforms,
+    private readonly shared: SharedUniforms,
     private readonly pictures: Pictures,
     private readonly scene: Scene,
   ) {

@@ -2,7 +2,7 @@
 import { BufferAttribute, BufferGeometry, Mesh, type RawShaderMaterial } from "three";
 import type { TriangleMesh } from "./packets.js";
 import type { Pictures } from "./pictures.js";
-import { plantMaterial, surfaceFragment, type Uniforms } from "./shading.js";
+import { plantMaterial, surfaceFragment, type SharedUniforms } from "./shading.js";
 
 const vertex = /* glsl */ `
 in vec3 position;
@@ -59,7 +59,7 @@ export class Triangles {
 
   /** `isWood`: no light comes through. */
   constructor(
-    private readonly shared: Uniforms,
+    private readonly shared: SharedUniforms,
     private readonly pictures: Pictures,
     private readonly isWood: boolean,
   ) {

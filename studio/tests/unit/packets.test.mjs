@@ -1,4 +1,4 @@
-// Binary messages, laid out by hand as docs/studio-protocol.md has them.
+// Binary messages, laid out by hand as docs/developer/studio-protocol.md has them.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { load } from "./load.mjs";

@@ -240,6 +240,41 @@ TEST_CASE("a query is told the water of the internode before it", "[environment]
     CHECK(values[3] < 0.25);  // less than its share of the length
 }
 
+TEST_CASE("organs know their water without a query, as a query is told it", "[environment][roots]") {
+    RootedSoil plant(pot(0.02, "soil = \"loam\"\ninitial = { head = -100 }\n"), drinks + "collar = { head = -1000 }\n");
+    plant.add_root(0.01, 0.01, 0.2);
+    // A stem above the soil.
+    plant.strings[0].append(plant.model.alphabet.letter("F", 0), {});
+    plant.interpretations[0].geometry.internodes.push_back(
+        {4, 1, 0, 0, 0, {0.01, 0, 0.01}, {0.01, 0.3, 0.01}, 0.001, 0.001});
+    plant.step(0.01);
+    const auto values = [&](const std::string& name) { return *plant.process->organ_values(name, 0); };
+    double uptake = 0, fractions = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        std::vector<double> told(4, 0);
+        Query query;
+        query.module = static_cast<std::uint32_t>(i);
+        query.parameters = told;
+        query.pose.position = {0.01, -0.05 * double(i + 1), 0.01};
+        std::vector<Query> queries{query};
+        std::vector<Answer> answers{Answer(told)};
+        plant.process->answer(plant.water.world, queries, answers, plant.water.fields);
+        const char* const names[] = {"potential", "uptake", "soil", "fraction"};
+        for (std::size_t n = 0; n < 4; ++n) CHECK(values(names[n])[i] == static_cast<float>(told[n]));
+        CHECK(values("radial")[i] == Approx(1.73e-4));
+        CHECK(values("axial")[i] == Approx(0.0432));
+        uptake += told[1];
+        fractions += told[3];
+    }
+    CHECK(uptake * 0.01 == Approx(plant.quantity("transpiration")).epsilon(1e-3));  // of the last substep
+    CHECK(fractions == Approx(1).epsilon(1e-9));
+    for (const OrganQuantity& quantity : plant.process->organ_quantities()) {
+        REQUIRE(values(quantity.name).size() == 5);
+        CHECK(std::isnan(values(quantity.name)[4]));
+    }
+    CHECK(plant.process->organ_values("potential", 7) == nullptr);
+}
+
 TEST_CASE("a model says the conductances of its roots", "[environment][roots]") {
     const std::string soil = pot(0.02, "soil = \"loam\"\n"), held = "collar = { head = -500 }\n";
     RootedSoil pair(soil, "radial = 1e-9\naxial = 1e-3\n" + held);

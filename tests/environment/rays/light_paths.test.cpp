@@ -2,7 +2,7 @@
 
 #include "catch.h"
 #include "environment/lit_leaves.h"
-#include "environment/rays/ray_scene.h"
+#include "geometry/rays/ray_scene.h"
 #include "environment/rays/solid_surface.h"
 #include "environment/shapes/tables.h"
 

@@ -94,6 +94,11 @@ TEST_CASE("a content has the head that has this content", "[environment][soil]")
             if (at.content < kind.residual + 1e-9 || at.content > kind.saturated - 1e-9) continue;
             CHECK(soil.at(soil.head_at(at.content)).content == Approx(at.content).epsilon(1e-12));
             CHECK(soil.head_of_conductivity(at.conductivity) == Approx(h).epsilon(1e-6));
+            // A guess changes how soon it is found, and nothing else.
+            for (const double guess : {0.0, -1e-5, 0.99 * h, 1.3 * h, -77.0, -1e12}) {
+                CHECK(soil.head_at(at.content, guess) == soil.head_at(at.content));
+                CHECK(soil.head_of_conductivity(at.conductivity, guess) == soil.head_of_conductivity(at.conductivity));
+            }
         }
         CHECK(soil.head_at(kind.saturated) == 0);
         CHECK(soil.head_at(0) < -9e8);

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace espalier::environment {
+namespace espalier::geometry {
 
 /// Parts, each a mesh of its own that may stand in several places. A part that has not changed is not built again.
 class RayScene {
@@ -18,6 +18,7 @@ public:
     struct Hit {
         std::uint32_t part, triangle;  ///< the triangle counts from the part's first
         float distance;                ///< in lengths of the direction
+        float u = 0, v = 0;            ///< weights of the triangle's second and third corner
     };
     struct Part {
         std::span<const glm::vec3> corners;  ///< three a triangle
@@ -37,10 +38,18 @@ public:
     /// The nearest triangle from `from` to `to` along the ray, both in lengths of `direction`. Several threads may ask.
     /// The same on any processor.
     std::optional<Hit> first_hit(const glm::vec3& origin, const glm::vec3& direction, float from, float to) const;
+    /// Whether there is one; quicker.
+    bool is_blocked(const glm::vec3& origin, const glm::vec3& direction, float from, float to) const;
 
 private:
     struct Embree;
     std::unique_ptr<Embree> embree_;
 };
 
-}  // namespace espalier::environment
+}  // namespace espalier::geometry
+
+namespace espalier {
+
+using geometry::RayScene;
+
+}  // namespace espalier

@@ -1,13 +1,13 @@
-#include "environment/rays/sobol.h"
+#include "base/sobol.h"
 
 #include "catch.h"
 
 #include <cmath>
 #include <set>
 
-using namespace espalier::environment;
+using namespace espalier;
 
-TEST_CASE("2^k samples have one in each of 2^k intervals of every dimension, whatever the seed", "[rays]") {
+TEST_CASE("2^k samples have one in each of 2^k intervals of every dimension, whatever the seed", "[sobol]") {
     for (const std::uint32_t seed : {0u, 1u, 77u, 0xFFFFFFFFu}) {
         for (const std::uint32_t count : {16u, 1024u}) {
             for (int dimension = 0; dimension < 4; ++dimension) {
@@ -24,7 +24,7 @@ TEST_CASE("2^k samples have one in each of 2^k intervals of every dimension, wha
     }
 }
 
-TEST_CASE("pairs of dimensions are stratified, too: 256 samples, one in each of 16 x 16 squares", "[rays]") {
+TEST_CASE("pairs of dimensions are stratified, too: 256 samples, one in each of 16 x 16 squares", "[sobol]") {
     std::set<int> squares;
     for (std::uint32_t i = 0; i < 256; ++i) {
         const auto sample = scrambled_sobol(i, 5);
@@ -33,7 +33,7 @@ TEST_CASE("pairs of dimensions are stratified, too: 256 samples, one in each of 
     CHECK(squares.size() == 256);
 }
 
-TEST_CASE("the mean of a smooth function comes nearer than by independent samples", "[rays]") {
+TEST_CASE("the mean of a smooth function comes nearer than by independent samples", "[sobol]") {
     // x y z w has the mean 1/16 and the variance 1/81 - 1/256.
     constexpr std::uint32_t count = 4096;
     const double independent = std::sqrt((1.0 / 81 - 1.0 / 256) / count);

@@ -1,8 +1,8 @@
-#include "environment/rays/sobol.h"
+#include "base/sobol.h"
 
 #include "espalier/base/random.h"
 
-namespace espalier::environment {
+namespace espalier {
 namespace {
 
 using Directions = std::array<std::uint32_t, 32>;
@@ -77,4 +77,4 @@ std::array<double, 4> independent_numbers(std::uint32_t index, std::uint32_t see
     return numbers;
 }
 
-}  // namespace espalier::environment
+}  // namespace espalier

@@ -1,10 +1,10 @@
-// Low-discrepancy numbers for light paths.
+// Low-discrepancy numbers: samples that are spread more evenly than chance spreads them.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
-namespace espalier::environment {
+namespace espalier {
 
 /// Four numbers in [0, 1): sample `index` of the first four dimensions of Sobol's sequence (direction numbers of Joe &
 /// Kuo 2008), shuffled and Owen-scrambled by `seed` (Burley 2020, Practical hash-based Owen scrambling). Each seed
@@ -14,4 +14,4 @@ std::array<double, 4> scrambled_sobol(std::uint32_t index, std::uint32_t seed);
 /// Four numbers that have nothing to do with each other, nor with those of other indices: plain Monte Carlo.
 std::array<double, 4> independent_numbers(std::uint32_t index, std::uint32_t seed);
 
-}  // namespace espalier::environment
+}  // namespace espalier

@@ -1,15 +1,29 @@
-#include "environment/rays/ray_scene.h"
+#include "geometry/rays/ray_scene.h"
 
 #include "espalier/base/error.h"
 
 #include <algorithm>
+#if __has_include(<embree3/rtcore.h>)
 #include <embree3/rtcore.h>
+#else
+#include <embree4/rtcore.h>
+#endif
 #include <limits>
 #include <string>
 #include <utility>
 
-namespace espalier::environment {
+namespace espalier::geometry {
 namespace {
+
+void intersect(RTCScene scene, RTCRayHit& ray) {
+#if RTC_VERSION_MAJOR >= 4
+    rtcIntersect1(scene, &ray, nullptr);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene, &context, &ray);
+#endif
+}
 
 // The widest instructions differ between processors, and so would their rounding.
 constexpr const char* same_everywhere = "isa=sse2";
@@ -36,6 +50,10 @@ struct BuiltPart {
     EmbreeScene scene;
     std::vector<glm::vec3> corners;
 };
+
+RTCRay ray_of(const glm::vec3& origin, const glm::vec3& direction, float from, float to) {
+    return {origin.x, origin.y, origin.z, from, direction.x, direction.y, direction.z, 0, to, 0xFFFFFFFF, 0, 0};
+}
 
 }  // namespace
 
@@ -130,15 +148,22 @@ std::size_t RayScene::set_parts(std::span<const Part> parts) {
 std::optional<RayScene::Hit> RayScene::first_hit(const glm::vec3& origin, const glm::vec3& direction, float from,
                                                  float to) const {
     if (embree_->part_of_instance.empty()) return std::nullopt;
-    RTCRayHit ray{};
-    ray.ray = {origin.x, origin.y, origin.z, from, direction.x, direction.y, direction.z, 0, to, 0xFFFFFFFF, 0, 0};
+    RTCRayHit ray{ray_of(origin, direction, from, to), {}};
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(embree_->all->get(), &context, &ray);
+    intersect(embree_->all->get(), ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return Hit{embree_->part_of_instance[ray.hit.instID[0]], ray.hit.primID, ray.ray.tfar};
+    const std::uint32_t part = embree_->part_of_instance[ray.hit.instID[0]];
+    return Hit{part, ray.hit.primID, ray.ray.tfar, ray.hit.u, ray.hit.v};
 }
 
-}  // namespace espalier::environment
+bool RayScene::is_blocked(const glm::vec3& origin, const glm::vec3& direction, float from, float to) const {
+    if (embree_->part_of_instance.empty()) return false;
+    RTCRay ray = ray_of(origin, direction, from, to);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(embree_->all->get(), &context, &ray);
+    return ray.tfar < 0;  // Embree's sign of a hit
+}
+
+}  // namespace espalier::geometry

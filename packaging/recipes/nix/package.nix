@@ -1,0 +1,72 @@
+{
+  lib,
+  stdenv,
+  fetchurl,
+  cmake,
+  ninja,
+  boost,
+  cli11,
+  eigen,
+  embree,
+  expat,
+  fmt,
+  glm,
+  libpng,
+  lz4,
+  nlohmann_json,
+  openvdb,
+  qhull,
+  random123,
+  sleef,
+  tbb,
+  tomlplusplus,
+  vtk,
+}:
+
+stdenv.mkDerivation (finalAttrs: {
+  pname = "espalier";
+  version = "@VERSION@";
+
+  src = fetchurl {
+    url = "@URL@/espalier-${finalAttrs.version}.tar.gz";
+    hash = "@SHA256SRI@";
+  };
+
+  nativeBuildInputs = [
+    cmake
+    ninja
+  ];
+
+  buildInputs = [
+    boost
+    cli11
+    eigen
+    embree
+    expat
+    fmt
+    glm
+    libpng
+    lz4
+    nlohmann_json
+    openvdb
+    qhull
+    random123
+    sleef
+    tbb
+    tomlplusplus
+    vtk
+  ];
+
+  cmakeFlags = [
+    (lib.cmakeBool "ESPALIER_TESTS" false)
+    (lib.cmakeBool "ESPALIER_UNITY" true)
+  ];
+
+  meta = {
+    description = "L-system simulator of plants that grow and exchange information with their environment";
+    homepage = "@HOME@";
+    license = lib.licenses.asl20;
+    mainProgram = "espalier";
+    platforms = lib.platforms.unix;
+  };
+})

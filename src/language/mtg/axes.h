@@ -1,0 +1,13 @@
+// The axes of a multiscale tree graph, as measured lines.
+#pragma once
+
+#include "language/mtg/graph.h"
+#include "language/rsml/document.h"
+
+namespace espalier::language::mtg {
+
+/// The entities of the finest scale that has coordinates, by the succession of which axes consist. Those between two
+/// with coordinates lie evenly between them. Throws UserError if none has coordinates.
+rsml::Document axes_of(const Graph& graph, const std::string& name);
+
+}  // namespace espalier::language::mtg

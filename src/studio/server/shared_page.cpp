@@ -1,0 +1,127 @@
+#include "studio/server/shared_page.h"
+
+#include "espalier/base/error.h"
+
+#include "base/base64.h"
+#include "studio/growth/recorded_frame.h"
+#include "studio/server/page_files.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <zlib.h>
+
+namespace espalier::studio {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// As the page's own compression: deflate without a header.
+std::string deflated(const std::string& bytes) {
+    z_stream stream{};
+    constexpr int raw = -15, memory = 8;
+    if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, raw, memory, Z_DEFAULT_STRATEGY) != Z_OK) {
+        throw RunError("the page cannot be compressed: there is no memory left");
+    }
+    std::string out(deflateBound(&stream, bytes.size()), '\0');
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+    stream.avail_in = static_cast<uInt>(bytes.size());
+    stream.next_out = reinterpret_cast<Bytef*>(out.data());
+    stream.avail_out = static_cast<uInt>(out.size());
+    const int end = deflate(&stream, Z_FINISH);
+    deflateEnd(&stream);
+    if (end != Z_STREAM_END) throw RunError("a frame is too large for a page");
+    out.resize(stream.total_out);
+    return out;
+}
+
+/// What the viewer does when it fits a plant that it sees from the side, in a window that is no higher than wide.
+Json camera_for(const FrameGeometry& geometry) {
+    glm::vec3 lower(0), upper(0, 1, 0);
+    if (!geometry.points.empty()) {
+        lower = glm::vec3(std::numeric_limits<float>::max()), upper = -lower;
+        for (const glm::vec3& point : geometry.points) lower = glm::min(lower, point), upper = glm::max(upper, point);
+    }
+    const glm::vec3 size = upper - lower, middle = 0.5f * (lower + upper);
+    constexpr double azimuth = 0.5, elevation = 0.16, half_of_view = 16 * std::numbers::pi / 180;
+    const double wide = std::max(size.x, size.z) / 2, high = size.y / 2 + 0.3 * wide * std::sin(elevation);
+    const double distance = 1.18 * std::max({high, wide, 1e-4}) / std::tan(half_of_view) + 0.6 * wide;
+    return {{"target", {middle.x, middle.y, middle.z}},
+            {"distance", distance},
+            {"azimuth", azimuth},
+            {"elevation", elevation}};
+}
+
+Json recording_of(const RecordedRun& run, const std::vector<const RecordedFrame*>& frames, const SharedPage& page) {
+    Json steps = Json::array(), packets = Json::array();
+    for (const RecordedFrame* const frame : frames) {
+        steps.push_back(frame->step);
+        packets.push_back(base64(deflated(DrawnFrame(run, *frame).packet(1, frame->step))));
+    }
+    const Json none = Json::array();
+    return {{"title", page.title},
+            {"theme", page.is_dark ? "dark" : "light"},
+            {"steps", steps},
+            {"packets", packets},
+            {"shapes", none},
+            {"images", none},
+            {"reliefs", none},
+            {"limbs", none},
+            {"camera", camera_for(run.geometry(*frames.back()))},
+            {"light", {{"towardsEye", nullptr}, {"towardsLight", nullptr}, {"background", nullptr}}}};
+}
+
+std::string with_all(std::string text, std::string_view from, std::string_view to) {
+    for (std::size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size())) {
+        text.replace(at, from.size(), to);
+    }
+    return text;
+}
+
+/// Text that may stand inside a script element.
+std::string in_script(std::string_view text, std::string_view less) {
+    const std::string escape(less);
+    return with_all(with_all(std::string(text), "</", escape + "/"), "<!--", escape + "!--");
+}
+
+std::string in_html(std::string text) {
+    return with_all(with_all(std::move(text), "&", "&amp;"), "<", "&lt;");
+}
+
+/// The first of the two scripts of the page: what a shared file has, too.
+std::string_view viewer() {
+    const std::string_view script = page_file("/studio.js")->bytes;
+    return script.substr(0, script.find("/*--- studio ---*/"));
+}
+
+}  // namespace
+
+std::string shared_page(const RecordedRun& run, const std::vector<const RecordedFrame*>& frames,
+                        const SharedPage& page) {
+    const std::string recording = recording_of(run, frames, page).dump(-1, ' ', false, Json::error_handler_t::replace);
+    return fmt::format(R"(<!doctype html>
+<html lang="en" data-theme="{}">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:">
+<title>{}</title>
+<style>{}</style>
+</head>
+<body class="recording">
+<script type="application/json" id="recording">{}</script>
+<script>{}
+EspalierView.playRecording();</script>
+</body>
+</html>
+)",
+                       page.is_dark ? "dark" : "light", in_html(page.title), page_file("/studio.css")->bytes,
+                       in_script(recording, "\\u003c"), in_script(viewer(), "<\\"));
+}
+
+}  // namespace espalier::studio

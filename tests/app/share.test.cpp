@@ -1,0 +1,67 @@
+// A run as one page of HTML.
+#include "app/program.h"
+#include "catch.h"
+
+#include <nlohmann/json.hpp>
+
+#include <regex>
+
+using Catch::Matchers::Contains;
+using Json = nlohmann::json;
+
+namespace {
+
+/// A plant that has grown for six steps, in the folder `run`.
+class Recorded : public Workplace {
+public:
+    Recorded() {
+        write("bush.l",
+              "lsystem: bush\nderivation length: 6\naxiom: A(1)\nA(x) --> F(x)[+A(x/2)][-A(x/2)]\nendlsystem\n");
+        REQUIRE(run("run bush.l --output run --quiet").code == 0);
+    }
+
+    Json recording_in(const std::string& file) const {
+        const std::string page = text_of(path() / file), begin = "id=\"recording\">";
+        const std::size_t at = page.find(begin) + begin.size();
+        return Json::parse(page.substr(at, page.find("</script>", at) - at));
+    }
+};
+
+std::size_t count(const std::string& text, const std::string& word) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1)) ++found;
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE_METHOD(Recorded, "A shared page has all frames of a run, and nothing is loaded", "[app][share]") {
+    const Outcome shared = run("share run --json");
+    REQUIRE(shared.code == 0);
+    CHECK(Json::parse(shared.out)["frames"] == 7);
+    const std::string page = text_of(path() / "run/share.html");
+    CHECK(page.size() == Json::parse(shared.out)["bytes"]);
+    const Json recording = recording_in("run/share.html");
+    CHECK(recording["steps"] == Json{0, 1, 2, 3, 4, 5, 6});
+    CHECK(recording["packets"].size() == 7);
+    CHECK(count(page, "</script>") == 2);
+    CHECK_THAT(page, Contains("default-src 'none'") && !Contains("<link") && !Contains("<script src"));
+}
+
+TEST_CASE_METHOD(Recorded, "A shared page has so many frames as one asks for, and its title is text", "[app][share]") {
+    REQUIRE(run("share run --frames 3 --dark --title '</script><i>&' --output pages/bush.html").code == 0);
+    const Json recording = recording_in("pages/bush.html");
+    CHECK(recording["steps"] == Json{0, 3, 6});
+    CHECK(recording["theme"] == "dark");
+    CHECK(recording["title"] == "</script><i>&");
+    CHECK_THAT(text_of(path() / "pages/bush.html"), Contains("<title>&lt;/script>&lt;i>&amp;</title>"));
+    REQUIRE(run("share run --step 2 --output one.html").code == 0);
+    CHECK(recording_in("one.html")["steps"] == Json{2});
+}
+
+TEST_CASE_METHOD(Recorded, "What cannot be shared is said", "[app][share]") {
+    CHECK_THAT(run("share run --output page.pdf").err, Contains(".html"));
+    CHECK_THAT(run("share bush.l").err, Contains("bush.l"));
+    CHECK_THAT(run("share run --step 99").err, Contains("99"));
+    CHECK(run("share none").code == 1);
+}
