@@ -209,6 +209,12 @@ entry environments/stand-rays.toml "Stand of herbs, with scattered light" "after
 entry environments/stand-measured.toml "Stand of herbs in measured light" "after Monsi & Saeki 1953"
 entry environments/growth-chamber.toml "Herbs in a growth chamber" "after Monsi & Saeki 1953"
 grown_by environments/stand.toml models/light/stand.l "Herb whose leaves live on light" "after Monsi & Saeki 1953"
+entry environments/crowded-stand.toml "Three species in a crowd" "after Yoda et al. 1963" --steps 40
+grown_by environments/crowded-stand.toml models/light/crowded.l "Plant in a crowd" "after Yoda et al. 1963"
+entry environments/shade-avoidance.toml "Seedlings that avoid shade" "after Ballare, Scopel & Sanchez 1990"
+grown_by environments/shade-avoidance.toml models/light/shade-avoiding.l "Seedling that senses far-red light" "after Morgan & Smith 1979"
+entry environments/phototropism.toml "Seedling in light from one side" "after Darwin & Darwin 1880"
+grown_by environments/phototropism.toml models/light/phototropic.l "Seedling that bends to the light" "after Darwin & Darwin 1880"
 grown_by environments/two-trees.toml models/light/competing-tree.l "Tree that grows on light" "Mech & Prusinkiewicz 1996"
 grown_by environments/forest-patch.toml models/light/conifer.l "Conifer that grows on light" "Mech & Prusinkiewicz 1996"
 entry environments/forest-patch.toml "Nine conifers" "Mech & Prusinkiewicz 1996" -- --azimuth 20

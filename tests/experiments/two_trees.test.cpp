@@ -223,6 +223,25 @@ TEST_CASE("two trees: whatever the strength and the kind of shadows, both lean a
     }
 }
 
+TEST_CASE("two trees: in the light that their drawn leaves leave, by Beer's law and by rays, both lean away",
+          "[two-trees][canopy-light][ray-light]") {
+    for (const std::string process : {"canopy-light\", voxel = 0.5, beams = 1", "ray-light\", paths = 1024"}) {
+        SceneOptions options;
+        options.overrides = {{"environment.light", "{ process = \"" + process +
+                                                       ", sky = { par = 1000, rings = 3, around = 6 }, bands = { par = "
+                                                       "{ leaf = [0, 0], stem = 0, soil = 0 } } }"}};
+        options.steps = end_of(10);
+        const std::vector<Life> two = lives("two-trees.toml", options), lone = lives("lone-tree.toml", options);
+        const double alone = lone.front().crowns.back().asymmetry();
+        const Crown &left = two[0].crowns.back(), &right = two[1].crowns.back();
+        CAPTURE(process, alone, left.asymmetry(), right.asymmetry(), left.leaves, right.leaves,
+                lone.front().crowns.back().leaves);
+        CHECK(left.asymmetry() < alone - 0.1);
+        CHECK(right.asymmetry() > alone + 0.1);
+        CHECK(left.leaves + right.leaves < 1.8 * lone.front().crowns.back().leaves);
+    }
+}
+
 TEST_CASE("two trees: less than 0.35 of each tree's leaves are on the side of the neighbour", "[two-trees]") {
     const Crown &left = two_trees()[0].crowns.back(), &right = two_trees()[1].crowns.back();
     CAPTURE(left.leaves, left.to_right, right.leaves, right.to_right);

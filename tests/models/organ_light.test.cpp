@@ -5,6 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include <tuple>
+
 using namespace espalier;
 using namespace espalier::environment;
 
@@ -68,13 +70,15 @@ private:
 };
 
 /// m2 of level ground whose light each module gets: 1e6 umol m-2 s-1 are 86400 mol/m2 in a day.
-std::vector<double> absorbed_by(const char* process, const std::string& lines, const LonePlant& plant) {
+std::vector<double> absorbed_by(const char* process, const std::string& lines, const LonePlant& plant,
+                                const glm::dvec3& sun = {0.5, 1, 0.3}) {
     EnvironmentContext context;
     context.plants = 1;
     Environment light = environment_of("[light]\nprocess = \"" + std::string(process) +
                                            "\"\nbands.par = { leaf = [0, 0], stem = 0, soil = 0 }\n"
-                                           "sky = { par = 1e6, diffuse = 0, sun = [0.5, 1, 0.3] }\n" +
-                                           lines,
+                                           "sky = { par = 1e6, diffuse = 0, sun = [" +
+                                           std::to_string(sun.x) + ", " + std::to_string(sun.y) + ", " +
+                                           std::to_string(sun.z) + "] }\n" + lines,
                                        context);
     ModuleString string = plant.string;
     const std::vector<PlantView> views{{0, plant.model.get(), &string, &plant.interpretation}};
@@ -115,5 +119,38 @@ TEST_CASE("organs of five grown plants absorb what rays against all triangles co
             absorbed_by("canopy-light", "voxel = " + std::to_string(voxel) + "\n", plant);
         // Leaves that stand in order are not at random in their voxels.
         CHECK(sum(voxels) == Approx(all).epsilon(0.2));
+    }
+}
+
+TEST_CASE("turned about the vertical together with the light, and moved, organs absorb the same",
+          "[ray-light][canopy-light]") {
+    LonePlant plant("models/herbs/lychnis.l");
+    plant.grow(20);
+    const Box& bounds = plant.interpretation.geometry.bounds;
+    const std::string voxel =
+        "beams = 4\nvoxel = " + std::to_string(glm::length(bounds.upper - bounds.lower) / 12) + "\n";
+    const double turn = 0.7;
+    const auto turned = [&](const glm::dvec3& v) {
+        return glm::dvec3(std::cos(turn) * v.x + std::sin(turn) * v.z, v.y,
+                          std::cos(turn) * v.z - std::sin(turn) * v.x);
+    };
+    const glm::dvec3 sun(0.5, 1, 0.3);
+    const std::vector<std::tuple<const char*, std::string, double>> processes{
+        {"ray-light", "ground = -10\npaths = 262144\n", 0.01}, {"canopy-light", "ground = -10\n" + voxel, 0.04}};
+    std::vector<std::vector<double>> here;
+    for (const auto& [process, lines, margin] : processes) here.push_back(absorbed_by(process, lines, plant, sun));
+
+    Pose& pose = plant.turtle.pose;
+    pose = {{0.3, 0.1, -0.2}, turned(pose.heading), turned(pose.left), turned(pose.up)};
+    plant.interpretation = interpret(*plant.model, plant.string, plant.turtle, &plant.derivation);
+    auto before = here.begin();
+    for (const auto& [process, lines, margin] : processes) {
+        const std::vector<double> there = absorbed_by(process, lines, plant, turned(sun));
+        double apart = 0;
+        for (std::size_t i = 0; i < there.size(); ++i) apart += std::abs((*before)[i] - there[i]);
+        CAPTURE(process, sum(*before), sum(there), apart);
+        CHECK(sum(there) == Approx(sum(*before)).epsilon(margin));
+        CHECK(apart < 0.15 * sum(*before));
+        ++before;
     }
 }

@@ -220,7 +220,7 @@ private:
             const auto [front, back] = optics_.of(pieces[i].kind, pieces[i].material, band);
             OrganLight::Meeting& meeting = organs_.meeting(slot, band);
             meeting.front += flux.front[i];
-            meeting.back += flux.back[i];
+            (pieces[i].kind == LitKind::leaf ? meeting.back : meeting.front) += flux.back[i];
             meeting.absorbed += flux.front[i] * (1 - front.reflectance - front.transmittance) +
                                 flux.back[i] * (1 - back.reflectance - back.transmittance);
             if (band > 0) continue;

@@ -66,9 +66,33 @@ void DaylightSeries::read_steady(const Settings& sky) {
         throw UserError(sky.place("global"), "the light is given twice, as 'par' and as 'global': leave one out");
     }
     steady_ = sky.has("par") ? light_of(sky, "par") : par_of_global_ * light_of(sky, "global");
-    sun_ = unit_vector(sky, "sun", {0, 1, 0});
-    if (sun_.y < least_rise_ && diffuse_.value_or(1) < 1) {
+    if (sky.has("suns")) return read_suns(sky);
+    suns_ = {{unit_vector(sky, "sun", {0, 1, 0}), 1}};
+    if (suns_[0].towards.y < least_rise_ && diffuse_.value_or(1) < 1) {
         throw UserError(sky.place("sun"), "the sun must stand at least 2 degrees above the horizon");
+    }
+}
+
+void DaylightSeries::read_suns(const Settings& sky) {
+    if (sky.has("sun")) {
+        throw UserError(sky.place("sun"), "the direction is given twice, as 'sun' and as 'suns': leave one out");
+    }
+    const std::vector<glm::dvec3> directions = sky.vectors("suns");
+    const std::vector<double> shares = sky.numbers_or("sun_shares", std::vector<double>(directions.size(), 1));
+    double sum = 0;
+    for (const double share : shares) sum += share >= 0 ? share : std::nan("");
+    if (shares.size() != directions.size() || !(sum > 0) || !std::isfinite(sum)) {
+        throw UserError(sky.place(sky.has("sun_shares") ? "sun_shares" : "suns"),
+                        fmt::format("'sun_shares' must have a number from 0 on for each of the {} 'suns', not all 0",
+                                    directions.size()));
+    }
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        const double length = glm::length(directions[i]);
+        if (!(directions[i].y >= least_rise_ * length && length > 0)) {
+            throw UserError(sky.place("suns"),
+                            fmt::format("sun {} must stand at least 2 degrees above the horizon", i + 1));
+        }
+        suns_.push_back({directions[i] / length, shares[i] / sum});
     }
 }
 
@@ -162,7 +186,13 @@ void DaylightSeries::add(const Moment& moment, Sums& sums) const {
 }
 
 void DaylightSeries::add_steady(double days, Sums& sums) const {
-    add({sun_, seconds_of_day * days, *steady_, *steady_ / par_of_global_, diffuse_.value_or(1), 0}, sums);
+    const double seconds = seconds_of_day * days;
+    int slot = 0;
+    for (const auto& [towards, share] : suns_) {
+        const double par = share * *steady_;
+        add({towards, seconds, par, par / par_of_global_, diffuse_.value_or(1), slot++}, sums);
+    }
+    sums.light.seconds = seconds;
 }
 
 void DaylightSeries::add_days(double elapsed, double days, Sums& sums) const {
@@ -286,6 +316,9 @@ With par or global, the light is the same at all times:
 par           PAR on open level ground, umol m-2 s-1; or
 global        light of all wavelengths there, W m-2
 sun           [0, 1, 0]: direction to the sun
+suns          none; several directions instead, [[x, y, z], ...]
+sun_shares    none; what each of the suns brings of the direct light on level ground, in proportion to these numbers, as in
+              [3, 1]; none: equal shares
 diffuse       1; share of the light that comes from the sky
 
 Without them, the sun goes its way (Michalsky 1988), and a share of the light above the air reaches the ground:

@@ -69,12 +69,17 @@ private:
         Daylight light;
         std::map<int, SunSum> suns;
     };
+    struct GivenSun {
+        glm::dvec3 towards;
+        double share;  ///< of the direct light on level ground
+    };
     struct Hour {
         double at, span;
     };
 
     void read_sky(const Settings& sky);
     void read_steady(const Settings& sky);
+    void read_suns(const Settings& sky);
     void read_path(const Settings& sky);
     void read_hours(const Settings& sky);
     void read_series(const Settings& sky);
@@ -95,8 +100,9 @@ private:
     std::optional<double> steady_, diffuse_;  ///< umol m-2 s-1 of PAR; share of it
     std::optional<LightSeries> series_;
     bool repeats_ = false;
-    double sample_ = 0.5;  ///< hours
-    glm::dvec3 sun_{0, 1, 0}, north_{0, 0, -1};
+    double sample_ = 0.5;         ///< hours
+    std::vector<GivenSun> suns_;  ///< of steady light
+    glm::dvec3 north_{0, 0, -1};
     GroundPlace place_;
     double year_ = 2025, day_ = 172, clearness_ = 0.5;
     double par_of_global_ = 0.5 * 4.57;  ///< umol of PAR per joule of all wavelengths

@@ -128,6 +128,33 @@ TEST_CASE("a sky without light is refused", "[sky]") {
     CHECK(lacks(refusal("integration = \"adaptive\"\nhours = [12]\n"), {"leave 'hours' out"}) == "");
 }
 
+TEST_CASE("several given suns share the direct light on level ground", "[sky]") {
+    const Daylight light = DaylightSeries(table("par = 800\ndiffuse = 0.25\nsuns = [[0, 2, 0], [1, 1, 0], [0, 1, -1]]\n"
+                                                "sun_shares = [3, 2, 1]\n"),
+                                          least_elevation)
+                               .over(0, 1);
+    const double all = 800 * 86400e-6;
+    CHECK(light.on_ground == Approx(all));
+    CHECK(light.seconds == 86400);
+    CHECK(beams_on_ground(light) == Approx(all));
+    std::vector<double> of_suns;
+    for (const LightBeam& beam : light.beams) {
+        if (beam.is_sun) of_suns.push_back(beam.photons * beam.towards.y);
+    }
+    REQUIRE(of_suns.size() == 3);
+    for (std::size_t i = 0; i < 3; ++i) CHECK(of_suns[i] == Approx(0.75 * all * double(3 - i) / 6));
+
+    const auto refusal = [](const std::string& lines) {
+        return message_of([&] { DaylightSeries(table("par = 1\ndiffuse = 0\n" + lines), least_elevation); });
+    };
+    CHECK(lacks(refusal("suns = [[0, 1, 0], [1, 0, 0]]\n"), {"scene.toml:3", "sun 2", "2 degrees above"}) == "");
+    CHECK(lacks(refusal("suns = [[0, 0, 0]]\n"), {"sun 1"}) == "");
+    CHECK(lacks(refusal("suns = []\n"), {"scene.toml:3", "0 'suns'"}) == "");
+    CHECK(lacks(refusal("suns = [[0, 1, 0]]\nsun_shares = [1, 2]\n"), {"scene.toml:4", "each of the 1 'suns'"}) == "");
+    CHECK(lacks(refusal("suns = [[0, 1, 0]]\nsun_shares = [-1]\n"), {"from 0 on"}) == "");
+    CHECK(lacks(refusal("suns = [[0, 1, 0]]\nsun = [0, 1, 0]\n"), {"given twice"}) == "");
+}
+
 TEST_CASE("light in watts is that in photons, over 4.57 umol per joule and the share of PAR", "[sky]") {
     const Daylight watts = DaylightSeries(table("global = 500\n"), least_elevation).over(0, 1);
     CHECK(watts.energy == Approx(500 * 86400));
