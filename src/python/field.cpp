@@ -55,10 +55,10 @@ py::object field_of(const Fields& fields, const std::string& name) {
 
 void bind_field(py::module_& module) {
     py::class_<BoundField>(module, "Field", "A field of one step. It keeps its values when the world goes on.")
-        .def_property_readonly("name", [](const BoundField& bound) { return bound.field.name; },
-                               "The name that the scene gives it.")
-        .def_property_readonly("unit", [](const BoundField& bound) { return bound.field.unit; },
-                               "The unit of its values; empty: none.")
+        .def_property_readonly(
+            "name", [](const BoundField& bound) { return bound.field.name; }, "The name that the scene gives it.")
+        .def_property_readonly(
+            "unit", [](const BoundField& bound) { return bound.field.unit; }, "The unit of its values; empty: none.")
         .def_property_readonly("values", values, "Values of the active box, float32 (nx, ny, nz).")
         .def_property_readonly("origin", &BoundField::origin, "Lower corner of the active box, metres.")
         .def_property_readonly("voxel", &BoundField::voxel, "Size of a voxel, metres.")

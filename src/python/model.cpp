@@ -170,9 +170,9 @@ std::pair<std::string, int> parameter_named(const std::string& name) {
 void bind_model(py::module_& module) {
     bind_parameters(module);
     py::class_<Module>(module, "Module", "One module: its symbol, its parameters and its identity for life.")
-        .def_readonly("symbol", &Module::symbol)
-        .def_readonly("parameters", &Module::parameters)
-        .def_readonly("identity", &Module::identity);
+        .def_readonly("symbol", &Module::symbol, "Its letter, or several: \"F\", \"?light\".")
+        .def_readonly("parameters", &Module::parameters, "Its parameters, a list of numbers.")
+        .def_readonly("identity", &Module::identity, "A number that it alone has, for life.");
 
     py::class_<BoundString>(module, "ModuleString", "A string of modules; it does not change.")
         .def("__len__", [](const BoundString& bound) { return bound.string->size(); })

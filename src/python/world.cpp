@@ -130,8 +130,8 @@ py::dict stage_seconds(const BoundWorld& bound) {
 void bind_frame(py::module_& module) {
     py::class_<BoundPlant>(module, "PlantFrame",
                            "One plant of a frame; arrays of its internodes are views that stay valid and unchanged.")
-        .def_readonly("name", &BoundPlant::name)
-        .def_readonly("string", &BoundPlant::string)
+        .def_readonly("name", &BoundPlant::name, "Name of the plant in the scene.")
+        .def_readonly("string", &BoundPlant::string, "The string of its modules.")
         .def("__len__", &BoundPlant::rows)
         .def_property_readonly(
             "base", [](const BoundPlant& p) { return p.vectors(&Internode::base); }, "(n, 3), metres")

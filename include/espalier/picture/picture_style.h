@@ -37,7 +37,7 @@ struct PictureSky {
     enum class Kind : std::uint8_t { clear, overcast, uniform };
 
     Kind kind = Kind::clear;
-    double turbidity = 2.2;           ///< haze of the air: 2 is very clear, 8 hazy
+    double turbidity = 2.2;         ///< haze of the air: 2 is very clear, 8 hazy
     std::optional<double> diffuse;  ///< share of the sky in the light on level ground; none: as the kind has it
     std::optional<std::array<double, 2>> sun;  ///< its azimuth and elevation, degrees; none: those of the style
 };

@@ -305,8 +305,8 @@ const std::string& sky_help() {
         R"help(The table `sky` says what light there is. PAR are the photosynthetically active photons, 400 to 700 nm.
 radiance      "overcast" (1 + 2 cos zenith angle; Moon & Spencer 1942), "uniform", or "cie-1" to "cie-15": the skies of
               ISO 15469:2004, of which cie-12 is the clear one
-rings         5: rings of the sky, and `around`, 8 parts of each; so 40 directions. Of light from below 2 degrees above
-              the horizon nothing is counted
+rings         5: rings of the sky. Of light from below 2 degrees above the horizon nothing is counted
+around        8: parts of each ring; so 40 directions
 north         [0, 0, -1]: horizontal direction to the north
 diffuse       the share of the light on level ground that comes from the sky; the rest comes from the sun
 par_share     0.5: share of PAR in the light's energy

@@ -2,9 +2,9 @@
 
 #include "catch.h"
 #include "environment/lit_leaves.h"
-#include "geometry/rays/ray_scene.h"
 #include "environment/rays/solid_surface.h"
 #include "environment/shapes/tables.h"
+#include "geometry/rays/ray_scene.h"
 
 #include <glm/geometric.hpp>
 
