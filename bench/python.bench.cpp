@@ -46,6 +46,17 @@ void internodes_to_numpy(benchmark::State& state) {
 }
 BENCHMARK(internodes_to_numpy)->UseRealTime()->Iterations(1);
 
+void start_of_python(benchmark::State& state) {
+    measure_in_python(state, "start");
+}
+BENCHMARK(start_of_python)->UseRealTime()->Iterations(1);
+
+const Row start{"import espalier in a fresh Python, against import numpy, which it needs",
+                "start_of_python/iterations:1/real_time",
+                "",
+                Row::Measure::counters,
+                Row::Goal::at_most,
+                2};
 const Row queries{"exchange of 100,000 queries, a process in Python against the same in C++",
                   "queries_to_python/iterations:1/real_time",
                   "",
