@@ -14,14 +14,15 @@ constexpr int most_orders = 60;
 constexpr double diameter_if_unknown = 0.005;  ///< m
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-/// A vertex among the axes.
+/// A place among the axes of the document.
 struct Spot {
     std::size_t axis = none, node = none;
 };
 
 class Axes {
 public:
-    Axes(const Graph& graph, const std::string& name) : graph_(graph), name_(name), spots_(graph.vertices.size()) {
+    Axes(const Graph& graph, const std::string& name)
+        : graph_(graph), name_(name), chain_of_(graph.vertices.size(), none) {
         if (graph.unit == "cm") metres_ = 0.01;
         if (graph.unit == "mm") metres_ = 0.001;
         if (graph.unit != "m" && metres_ == 1) {
@@ -54,13 +55,13 @@ private:
     /// One axis goes on from each entity; what else follows it begins another.
     void chain(std::size_t v) {
         const Vertex& vertex = graph_.vertices[v];
-        const std::size_t before = vertex.parent && vertex.follows ? spots_[*vertex.parent].axis : none;
+        const std::size_t before = vertex.parent && vertex.follows ? chain_of_[*vertex.parent] : none;
         if (before != none && chains_[before].back() == *vertex.parent) {
             chains_[before].push_back(v);
-            spots_[v].axis = before;
+            chain_of_[v] = before;
             return;
         }
-        spots_[v].axis = chains_.size();
+        chain_of_[v] = chains_.size();
         chains_.push_back({v});
     }
 
@@ -131,7 +132,7 @@ private:
     std::string name_;
     double metres_ = 1;
     int scale_ = -1;
-    std::vector<Spot> spots_;
+    std::vector<std::size_t> chain_of_;  ///< of each entity
     std::vector<std::vector<std::size_t>> chains_;
     std::map<std::size_t, Spot> on_;  ///< of each entity: an axis of the document, and its node
     rsml::Document document_;

@@ -1,24 +1,19 @@
 // Measured plants as multiscale tree graphs: topology, coordinates, and what is no such file.
-#include "espalier/base/error.h"
-#include "espalier/language/notation.h"
-
 #include "catch.h"
+#include "language/notation_text.h"
 
 using namespace espalier;
 
 namespace {
 
+const NotationText notation{"mtg", "tree.mtg"};
+
 std::string model_of(const std::string& text) {
-    return registered<NotationType>().at("mtg")->translate(text, "tree.mtg").text;
+    return notation.model_of(text);
 }
 
 std::string mistake(const std::string& text) {
-    try {
-        model_of(text);
-    } catch (const UserError& error) {
-        return to_string(error.diagnostics()[0].place) + ": " + error.diagnostics()[0].message;
-    }
-    return "";
+    return notation.mistake(text);
 }
 
 const std::string head =

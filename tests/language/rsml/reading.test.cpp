@@ -1,24 +1,19 @@
 // Measured roots: axes, units, nodes with times, and what is no RSML.
-#include "espalier/base/error.h"
-#include "espalier/language/notation.h"
-
 #include "catch.h"
+#include "language/notation_text.h"
 
 using namespace espalier;
 
 namespace {
 
+const NotationText notation{"rsml", "root.rsml"};
+
 std::string model_of(const std::string& text) {
-    return registered<NotationType>().at("rsml")->translate(text, "root.rsml").text;
+    return notation.model_of(text);
 }
 
 std::string mistake(const std::string& text) {
-    try {
-        model_of(text);
-    } catch (const UserError& error) {
-        return to_string(error.diagnostics()[0].place) + ": " + error.diagnostics()[0].message;
-    }
-    return "";
+    return notation.mistake(text);
 }
 
 std::string file(const std::string& metadata, const std::string& roots) {
