@@ -6,6 +6,7 @@
 #include "options.h"
 #include "program_data.h"
 #include "progress.h"
+#include "ranks/launcher.h"
 #include "setting_values.h"
 #include "simulation/run/disk_budget.h"
 
@@ -163,7 +164,7 @@ bool InterruptibleRun::interrupted() {
 }
 
 RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog& inputs, const fs::path& output,
-               Recorder* recorder) {
+               Recorder* recorder, Ranks* ranks) {
     platform::give_back_large_blocks();
     std::optional<tbb::global_control> threads;
     if (arguments.threads > 0) {
@@ -179,6 +180,7 @@ RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog&
     options.disk = arguments.disk;
     options.arguments = words_of(arguments);
     options.inputs = &inputs;
+    options.ranks = ranks;
     options.patience = arguments.timeout;
     options.expired = [json = arguments.json](const std::string& why) { end_without_answer(why, json); };
     if (!arguments.quiet) options.warn = print_warnings;
@@ -188,18 +190,45 @@ RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog&
     return run(scene, options);
 }
 
-int run_command(const RunArguments& arguments) {
+namespace {
+
+int run_here(const RunArguments& arguments, Ranks* ranks) {
     const InterruptibleRun interruptible(arguments.quiet);
     const ReadLog inputs;
-    const Scene scene = scene_of(arguments);
-    if (!arguments.quiet) print_warnings(scene.notes.diagnostics);
-    require_end(scene);
+    Scene scene;
     std::optional<DefaultOutput> unnamed;
-    if (arguments.output.empty()) unnamed.emplace(scene.name);
-    const fs::path output = unnamed ? unnamed->path() : arguments.output;
-    const RunResult result = grow(arguments, scene, inputs, output);
-    print_result(arguments, scene, output, result);
+    together(ranks, [&] {
+        scene = scene_of(arguments);
+        require_end(scene);
+        if (arguments.output.empty() && is_first(ranks)) unnamed.emplace(scene.name);
+    });
+    if (!arguments.quiet) print_warnings(scene.notes.diagnostics);
+    const fs::path output = from_first(ranks, unnamed ? unnamed->path().string() : arguments.output.string());
+    const RunResult result = grow(arguments, scene, inputs, output, nullptr, ranks);
+    if (is_first(ranks)) print_result(arguments, scene, output, result);
     return result.interrupted ? exit_code::interrupted : exit_code::done;
+}
+
+// The first rank tells of the run and of what went wrong anywhere: the others keep silent.
+int run_behind(RunArguments arguments, Ranks& ranks) {
+    arguments.quiet = true;
+    arguments.json = false;
+    try {
+        return run_here(arguments, &ranks);
+    } catch (const Stopped&) {
+        return exit_code::interrupted;
+    } catch (const UserError&) {
+        return exit_code::user_error;
+    } catch (const RunError&) {
+        return exit_code::run_failed;
+    }
+}
+
+}  // namespace
+
+int run_command(const RunArguments& arguments) {
+    const std::unique_ptr<Ranks> ranks = ranks_of_launcher();
+    return is_first(ranks.get()) ? run_here(arguments, ranks.get()) : run_behind(arguments, *ranks);
 }
 
 namespace {

@@ -69,9 +69,9 @@ private:
 };
 
 /// Grows the scene and records it in a folder, if one is named; progress and warnings go to standard error. `inputs` is
-/// what was read. `recorder`, which may be null, sees every frame.
+/// what was read. `recorder`, which may be null, sees every frame. `ranks`: the processes that do so together, or null.
 RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog& inputs,
-               const std::filesystem::path& output, Recorder* recorder = nullptr);
+               const std::filesystem::path& output, Recorder* recorder = nullptr, Ranks* ranks = nullptr);
 
 /// Runs it as `espalier run` does. Returns the exit code; throws UserError and RunError.
 int run_command(const RunArguments& arguments);

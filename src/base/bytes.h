@@ -36,6 +36,21 @@ inline std::string get_text(std::istream& in, std::uint64_t most) {
     return text;
 }
 
+/// A vector of plain values, whatever its allocator.
+template <class Values>
+void put_column(std::ostream& out, const Values& values) {
+    put(out, static_cast<std::uint64_t>(values.size()));
+    out.write(reinterpret_cast<const char*>(values.data()),
+              static_cast<std::streamsize>(values.size() * sizeof(values[0])));
+}
+
+template <class Values>
+void get_column(std::istream& in, Values& values) {
+    values.resize(get<std::uint64_t>(in));
+    const auto bytes = static_cast<std::streamsize>(values.size() * sizeof(values[0]));
+    if (!in.read(reinterpret_cast<char*>(values.data()), bytes)) throw RunError("a column ends too early");
+}
+
 inline void put_values(std::ostream& out, const std::vector<double>& values) {
     put(out, static_cast<std::uint64_t>(values.size()));
     out.write(reinterpret_cast<const char*>(values.data()),

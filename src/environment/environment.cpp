@@ -137,6 +137,13 @@ void Environment::require_answers(const Model& model, const std::string& plant_n
     });
 }
 
+// What a communication changes of a query, and how it is routed, its process does not know.
+Spreading Environment::spreading(std::size_t process) const {
+    const Spreading spreading = processes_[process]->spreading();
+    const bool is_changed = routed_ || communications_[process].changes_queries();
+    return spreading == Spreading::reach && is_changed ? Spreading::queries : spreading;
+}
+
 void Environment::note_memory() {
     kept_.clear();
     for (const auto& process : processes_) {

@@ -66,6 +66,14 @@ public:
     /// Values of one of them for a plant's modules, see EnvironmentProcess; null for an unknown name or plant.
     std::shared_ptr<const std::vector<float>> organ_values(const std::string& name, std::uint32_t plant) const;
 
+    /// What the process must know of plants that other ranks hold.
+    Spreading spreading(std::size_t process) const;
+    /// As the process says.
+    Box reach(std::size_t process, const Query& query) const { return processes_[process]->reach(query); }
+    /// The process that will answer; none: the query keeps its parameters. Throws UserError and RunError, as
+    /// exchange().
+    std::optional<std::size_t> process_of(const Query& query, const PlantView& plant, int step);
+
     /// Bytes that plants must leave to the fields of processes until the next exchange.
     std::size_t memory_kept() const;
     /// What all fields together may take from the next exchange on.

@@ -78,6 +78,14 @@ struct ProcessMemory {
     bool grows = false;    ///< from step to step
 };
 
+/// What a process must know of plants that other ranks hold, where several ranks grow a world together: see Ranks.
+enum class Spreading {
+    refused,  ///< it cannot be spread
+    reach,    ///< queries that change answers here, by EnvironmentProcess::reach(); it keeps nothing between steps
+    queries,  ///< all queries: every rank answers for the whole world
+    plants,   ///< all queries, all strings, and all that is drawn
+};
+
 /// Constructors take (Settings&, const EnvironmentContext&, Fields&), read their parameters (the scene rejects unread
 /// ones) and provide their fields. Order inside a step: `advance`, then `answer`, each once; then fields and statistics
 /// are recorded. Answers do not depend on the order of the queries, nor on the number of threads.
@@ -114,6 +122,10 @@ public:
     /// Bytes that the fields of a process which grows may take in this step. More is a RunError before allocating.
     virtual void limit_memory(std::size_t) {}
 
+    virtual Spreading spreading() const { return Spreading::refused; }
+    /// Where other queries may be whose answers this one changes, metres; empty: nowhere. For Spreading::reach.
+    virtual Box reach(const Query&) const { return {}; }
+
     /// What lasts from step to step, as bytes, for a checkpoint.
     virtual void save(std::ostream&) const {}
     virtual void restore(std::istream&) {}
@@ -141,6 +153,7 @@ using environment::PlantView;
 using environment::ProcessMemory;
 using environment::ProcessType;
 using environment::Quantity;
+using environment::Spreading;
 using environment::WorldView;
 
 }  // namespace espalier

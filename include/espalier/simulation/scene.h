@@ -9,6 +9,7 @@
 #include "espalier/turtle/geometry_stage.h"
 #include "espalier/turtle/view_file.h"
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -93,7 +94,9 @@ struct Scene {
     double dt = 1;  ///< time one derivation step stands for
     std::string time_unit = "step";
     std::optional<Box> domain;  ///< metres; none: grows with the plants
-    Settings timeline;          ///< what `run` records; see `espalier list recorders`
+    /// Blocks of ground along x and z, which ranks hold; none: as many as suit the number of plants.
+    std::optional<std::array<int, 2>> blocks;
+    Settings timeline;  ///< what `run` records; see `espalier list recorders`
 
     // An animation's. Without `steps` it leaves the plants' derivation lengths alone.
     std::optional<FrameSelection> frames;  ///< instead of the timeline's `first` and `every`

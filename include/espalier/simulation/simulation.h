@@ -34,6 +34,9 @@ struct RunOptions {
     std::function<void(const std::string& why)> expired = nullptr;
     /// The arguments of `espalier run` that change the timeline; for run.json.
     std::vector<std::string> arguments = {};
+    /// The processes that run the scene together, all of which call run() with the same options but for what is told:
+    /// the first one records and is told of progress. Null: this one alone.
+    Ranks* ranks = nullptr;
     /// What has been read so far and during the run; goes to run.json. Null: unknown.
     const ReadLog* inputs = nullptr;
     std::function<void(const Progress&)> progress = nullptr;

@@ -1,6 +1,7 @@
 // The world of a scene: its plants and its environment, one step at a time.
 #pragma once
 
+#include "espalier/simulation/ranks.h"
 #include "espalier/simulation/scene.h"
 #include "espalier/timeline/recorder.h"
 
@@ -18,6 +19,8 @@ std::filesystem::path folder_with(const Model& model);
 /// Seconds spent per stage of the last step.
 struct StageTimes {
     double derive = 0, interpret = 0, exchange = 0, record = 0;
+    /// What this rank sent to others in the step; 0 without others.
+    std::uint64_t messages = 0, bytes = 0;
 };
 
 /// What derivation leaves of a step: it can be drawn again, and gone on from.
@@ -35,9 +38,11 @@ class World {
 public:
     /// `memory` in bytes. Throws UserError for processes that cannot be made or queries without a process. What models
     /// write goes into `files`, below a folder of the plant's name if there are several; without it nothing is kept.
-    /// What they print goes to `printout`; null: standard error.
+    /// What they print goes to `printout`; null: standard error. `ranks`: the processes that grow the world together
+    /// and all call start(), step(), prepare_save() and restore(); each holds some of the plants, and the first one has
+    /// the recorders. They outlive the world; null: it grows here alone.
     explicit World(const Scene& scene, std::size_t memory = std::size_t(-1), const std::filesystem::path& files = {},
-                   std::shared_ptr<Printout> printout = nullptr);
+                   std::shared_ptr<Printout> printout = nullptr, Ranks* ranks = nullptr);
     ~World();
     World(World&&) noexcept;
     World& operator=(World&&) noexcept;
@@ -73,7 +78,10 @@ public:
     /// have more to remember, see save().
     void take(const DerivedStep& derived);
 
-    /// Everything that lasts from step to step, as bytes, after a step; for this machine and the same scene.
+    /// Before save(), on all ranks: the first one gets what the others hold. Without others, it does nothing.
+    void prepare_save();
+    /// Everything that lasts from step to step, as bytes, after a step; for this machine and the same scene, and any
+    /// number of ranks. Only on the first rank.
     void save(std::ostream& out) const;
     /// Instead of start(): the next step() is the one after the save. The frame of the saved step is not there again.
     /// Throws RunError or UserError for bytes of another scene, or for bytes that are damaged.

@@ -30,6 +30,7 @@ public:
     const std::filesystem::path& folder() const { return folder_; }
     /// One of its recorders does.
     bool reads_plants() const override;
+    std::vector<std::string> fields() const override { return fields_; }
     /// All its recorders find the fields that they read.
     void require(const Fields& fields) const override;
     /// Exactly these steps become frames, instead of those that the table's `first` and `every` choose.
@@ -66,7 +67,8 @@ private:
     int next_ = 0;
     int last_step_ = 0;
     std::vector<std::unique_ptr<Recorder>> recorders_;
-    bool sees_every_step_ = false;  // one of them
+    std::vector<std::string> fields_;  // that one of them reads
+    bool sees_every_step_ = false;     // one of them
     std::unique_ptr<FrameWriter> writer_;
 };
 

@@ -160,6 +160,11 @@ void Environment::write_answers(const Batch& batch, std::span<ModuleString*> str
     });
 }
 
+std::optional<std::size_t> Environment::process_of(const Query& query, const PlantView& plant, int step) {
+    name_processes(plant);
+    return process_for(query, plant, step);
+}
+
 // Nothing for a query that is to stay as it is.
 std::optional<std::size_t> Environment::process_for(const Query& query, const PlantView& plant, int step) const {
     const bool unnamed = query.process < 0;

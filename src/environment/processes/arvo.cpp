@@ -183,6 +183,7 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return {0, 20}; }
+    Spreading spreading() const override { return Spreading::queries; }
 
     void save(std::ostream& out) const override { obstacles_.save(out); }
     void restore(std::istream& in) override { obstacles_.restore(in); }

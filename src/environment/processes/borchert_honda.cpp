@@ -46,6 +46,7 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return {2, 20}; }
+    Spreading spreading() const override { return Spreading::plants; }
 
 private:
     struct Totals {

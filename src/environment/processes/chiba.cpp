@@ -88,6 +88,7 @@ public:
     std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
+    Spreading spreading() const override { return Spreading::queries; }
 
 private:
     static bool asks(const Query& query) { return query.parameters.size() == 1 || query.parameters.size() >= 4; }

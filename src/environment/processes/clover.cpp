@@ -49,6 +49,7 @@ public:
     std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
+    Spreading spreading() const override { return Spreading::queries; }
     ProcessMemory memory() const override { return {ground_.bytes()}; }
 
     void save(std::ostream& out) const override { ground_.save(out); }

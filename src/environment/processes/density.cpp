@@ -63,6 +63,7 @@ public:
     std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
+    Spreading spreading() const override { return Spreading::queries; }
 
 private:
     static glm::dvec2 place(const Query& query) { return glm::dvec2(query.pose.position.x, query.pose.position.y); }

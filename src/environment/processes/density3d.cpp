@@ -60,6 +60,7 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
+    Spreading spreading() const override { return Spreading::queries; }
 
     ProcessMemory memory() const override { return {amounts_.size() * bytes_per_voxel, true}; }
     void limit_memory(std::size_t bytes) override { memory_ = bytes; }

@@ -55,6 +55,7 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
+    Spreading spreading() const override { return Spreading::queries; }
 
 private:
     // Without vigour: of two that overlap in one group the smaller loses, and two of one size both do.

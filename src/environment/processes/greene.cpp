@@ -153,6 +153,7 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
+    Spreading spreading() const override { return Spreading::plants; }
 
     void save(std::ostream& out) const override {
         std::vector<openvdb::Coord> voxels;

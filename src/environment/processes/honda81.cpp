@@ -42,6 +42,7 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
+    Spreading spreading() const override { return Spreading::queries; }
 
 private:
     // Within a cell the most vigorous come first. Who is near one of them is dominated; the others keep a radius

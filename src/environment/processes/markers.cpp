@@ -117,6 +117,7 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
+    Spreading spreading() const override { return Spreading::queries; }
 
     ProcessMemory memory() const override { return {points_.points().size() * Colonization::bytes_per_point}; }
 

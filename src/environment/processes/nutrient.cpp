@@ -100,6 +100,7 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return {1, 5}; }
+    Spreading spreading() const override { return Spreading::plants; }
 
     ProcessMemory memory() const override {
         return {static_cast<std::size_t>(bytes_per_voxel * static_cast<double>(layout().grid().voxels()))};

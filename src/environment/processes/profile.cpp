@@ -130,6 +130,7 @@ public:
 
     std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }
     std::pair<int, int> query_arity() const override { return {1, 2}; }
+    Spreading spreading() const override { return Spreading::reach; }
 
 private:
     ProfileTable table_;

@@ -126,6 +126,7 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return {1, 24}; }
+    Spreading spreading() const override { return Spreading::plants; }
 
     ProcessMemory memory() const override {
         return {static_cast<std::size_t>(bytes_per_triangle * static_cast<double>(triangles_.size())), true};

@@ -333,6 +333,7 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return arity_; }
+    Spreading spreading() const override { return Spreading::queries; }
     void save(std::ostream& out) const override { pattern_->save(out); }
     void restore(std::istream& in) override { pattern_->restore(in); }
 

@@ -187,6 +187,7 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return {1, 6}; }
+    Spreading spreading() const override { return Spreading::plants; }
 
     void save(std::ostream& out) const override {
         const double common[] = {level_, last_demand_};

@@ -77,6 +77,7 @@ public:
     std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
+    Spreading spreading() const override { return Spreading::queries; }
 
     ProcessMemory memory() const override { return {2 * light_->memUsage(), true}; }
     void limit_memory(std::size_t bytes) override { memory_ = bytes; }

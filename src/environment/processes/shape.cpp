@@ -116,6 +116,7 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return {1, 8}; }
+    Spreading spreading() const override { return Spreading::reach; }
 
     ProcessMemory memory() const override { return {held_, motion_.moves()}; }
     void limit_memory(std::size_t bytes) override { memory_ = bytes; }

@@ -94,6 +94,7 @@ public:
     std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
+    Spreading spreading() const override { return Spreading::queries; }
 
 private:
     /// What passes straight down through a cluster spread over s^2 times its leaves' shadow.

@@ -54,6 +54,7 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
+    Spreading spreading() const override { return Spreading::queries; }
 
 private:
     static std::vector<std::uint32_t> numbers_up_to(std::size_t count) {

@@ -111,6 +111,7 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return names_.size() == 1 ? std::pair{1, 4} : std::pair{3, 3}; }
+    Spreading spreading() const override { return Spreading::queries; }
     ProcessMemory memory() const override { return {bytes_}; }
 
 private:

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace espalier::environment {
 namespace {
@@ -180,6 +181,19 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
+
+    // A period stores its images: every query may reach everywhere.
+    Spreading spreading() const override { return lattice_.periodic ? Spreading::queries : Spreading::reach; }
+    Box reach(const Query& query) const override {
+        if (!(query.parameters[0] > 0)) return {};
+        // Answers look half a voxel aside, gradients further, and the apex is where its voxel is.
+        const double aside = gradient_radius_ + 2 * lattice_.voxel;
+        const double wide = casts_.half_width(rule_.depth) * lattice_.voxel + aside;
+        const double deep = rule_.depth * lattice_.voxel + aside;
+        const double thick = lattice_.flat ? std::numeric_limits<double>::infinity() : wide;
+        const glm::dvec3& at = query.pose.position;
+        return {at - glm::dvec3(wide, deep, thick), at + glm::dvec3(wide, aside, thick)};
+    }
 
     ProcessMemory memory() const override { return {field_.bricks().bytes(), true}; }
     void limit_memory(std::size_t bytes) override { field_.bricks().limit_memory(bytes); }

@@ -132,6 +132,7 @@ public:
     double days_per_unit() const override { return parameters_.days; }
 
     std::pair<int, int> query_arity() const override { return {1, 100}; }
+    Spreading spreading() const override { return Spreading::queries; }
 
     ProcessMemory memory() const override {
         return {static_cast<std::size_t>(bytes_per_soil_voxel * static_cast<double>(grid_.voxels()))};

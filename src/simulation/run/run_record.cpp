@@ -89,6 +89,7 @@ RunRecord::RunRecord(const World& world, const RunOptions& options)
     : world_(world),
       planned_steps_(world.last_step()),
       memory_(options.memory),
+      ranks_(options.ranks ? options.ranks->count() : 1),
       checkpoint_every_(options.checkpoint_every),
       output_(options.output),
       inputs_(options.inputs),
@@ -97,7 +98,7 @@ RunRecord::RunRecord(const World& world, const RunOptions& options)
       started_(fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))) {}
 
 void RunRecord::begin(const Timeline& timeline) {
-    timings_.emplace(timeline.folder() / "timings.csv", "step,derive,interpret,exchange,record");
+    timings_.emplace(timeline.folder() / "timings.csv", "step,derive,interpret,exchange,record,messages,bytes");
 }
 
 void RunRecord::save(std::ostream& out) const {
@@ -106,22 +107,25 @@ void RunRecord::save(std::ostream& out) const {
     put(out, total_);
 }
 
-void RunRecord::resume(const Timeline& timeline, std::istream& in) {
-    timings_.emplace(timeline.folder() / "timings.csv", std::size_t{get<std::uint64_t>(in)});
+void RunRecord::resume(const Timeline* timeline, std::istream& in) {
+    const auto timings = std::size_t{get<std::uint64_t>(in)};
+    if (timeline) timings_.emplace(timeline->folder() / "timings.csv", timings);
     steps_ = get<int>(in);
     total_ = get<StageTimes>(in);
 }
 
 void RunRecord::add_step(const StageTimes& times) {
     if (timings_) {
-        timings_->append(fmt::format("{},{:.6f},{:.6f},{:.6f},{:.6f}\n", steps_, times.derive, times.interpret,
-                                     times.exchange, times.record));
+        timings_->append(fmt::format("{},{:.6f},{:.6f},{:.6f},{:.6f},{},{}\n", steps_, times.derive, times.interpret,
+                                     times.exchange, times.record, times.messages, times.bytes));
     }
     ++steps_;
     total_.derive += times.derive;
     total_.interpret += times.interpret;
     total_.exchange += times.exchange;
     total_.record += times.record;
+    total_.messages += times.messages;
+    total_.bytes += times.bytes;
 }
 
 std::string RunRecord::json(const std::string& exit, double seconds) const {
@@ -139,6 +143,7 @@ std::string RunRecord::json(const std::string& exit, double seconds) const {
     json["dt"] = scene.dt;
     json["time_unit"] = scene.time_unit;
     json["threads"] = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    if (ranks_ > 1) json["ranks"] = ranks_;
     json["memory"] = memory_;
     json["peak_memory"] = peak_memory();
     json["started"] = started_;

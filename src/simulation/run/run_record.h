@@ -23,8 +23,8 @@ public:
     void note_files_before(std::set<std::filesystem::path> files) { files_before_ = std::move(files); }
     /// Makes timings.csv, which then grows by a row a step.
     void begin(const Timeline& timeline);
-    /// Goes on with it as save() left it.
-    void resume(const Timeline& timeline, std::istream& in);
+    /// Goes on with it as save() left it; without a timeline, which another rank has, no timings are written.
+    void resume(const Timeline* timeline, std::istream& in);
     void save(std::ostream& out) const;
     void add_step(const StageTimes& times);
     /// Without those that were dropped.
@@ -38,6 +38,7 @@ private:
     const World& world_;
     int planned_steps_;
     std::size_t memory_;
+    int ranks_;
     int checkpoint_every_;
     std::filesystem::path output_;
     const ReadLog* inputs_;

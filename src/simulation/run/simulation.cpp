@@ -24,7 +24,7 @@
 namespace espalier::simulation {
 namespace {
 
-constexpr std::uint64_t signature = 0x32'6e75'52'7370'61;  // "apsRun2"
+constexpr std::uint64_t signature = 0x33'6e75'52'7370'61;  // "apsRun3"
 constexpr std::uint64_t most_checkpoint_bytes = std::uint64_t{1} << 40;
 
 class Run {
@@ -32,22 +32,30 @@ public:
     Run(const Scene& scene, const RunOptions& options)
         : scene_(scene),
           options_(options),
-          world_(scene, options.memory, files_folder(options)),
+          world_(scene, options.memory, files_folder(options), nullptr, options.ranks),
           record_(world_, options) {
         warn();
-        if (!options.output.empty()) open_timeline();
-        if (options.recorder) world_.attach(*options.recorder);
-        const bool reads_plants =
-            (timeline_ && timeline_->reads_plants()) || (options.recorder && options.recorder->reads_plants());
-        if (!reads_plants) world_.skip_geometry();
+        const bool records = is_first(options.ranks);
+        bool reads_plants = false;
+        together(options.ranks, [&] {
+            if (!records) return;
+            if (!options.output.empty()) open_timeline();
+            if (options.recorder) world_.attach(*options.recorder);
+            reads_plants =
+                (timeline_ && timeline_->reads_plants()) || (options.recorder && options.recorder->reads_plants());
+        });
+        if (options.resume) restore();
+        if (!any(options.ranks, reads_plants)) world_.skip_geometry();
     }
 
     RunResult walk() {
         bool cut_short = false;
         try {
             cut_short = !grow();
-            if (timeline_) timeline_->finish();
-            if (options_.recorder) options_.recorder->finish();
+            together(options_.ranks, [&] {
+                if (timeline_) timeline_->finish();
+                if (options_.recorder && is_first(options_.ranks)) options_.recorder->finish();
+            });
         } catch (const std::exception& error) {
             end_failed(error.what());
             throw;
@@ -114,12 +122,31 @@ private:
         if (get<std::uint64_t>(in) != signature) throw RunError(fmt::format("{} is no checkpoint", path.string()));
         if (!is_sealed(path)) throw RunError(fmt::format("{} is damaged: it is not what was written", path.string()));
         timeline_.emplace(options_.output, scene_.timeline, world_.last_step(), get_text(in, most_checkpoint_bytes));
-        record_.resume(*timeline_, in);
+    }
+
+    // Every rank reads the same file.
+    void restore() {
+        std::ifstream in;
+        together(options_.ranks, [&] {
+            in.open(checkpoint_of(options_.output), std::ios::binary);
+            if (get<std::uint64_t>(in) != signature) throw RunError("the checkpoint is not there");
+            get_text(in, most_checkpoint_bytes);  // of the timeline, which is resumed already
+            record_.resume(timeline_ ? &*timeline_ : nullptr, in);
+        });
         world_.restore(in);
-        begin_recording();
+        together(options_.ranks, [&] {
+            if (timeline_) begin_recording();
+        });
     }
 
     void write_checkpoint() {
+        world_.prepare_save();
+        together(options_.ranks, [&] {
+            if (timeline_) write_own_checkpoint();
+        });
+    }
+
+    void write_own_checkpoint() {
         const StopRequest::Scope no_request(nullptr);
         const double begin = seconds();
         std::ostringstream timeline;
@@ -167,7 +194,7 @@ private:
         } catch (const Stopped&) {
             return false;  // the step at hand is dropped, and with it the state of the world
         }
-        if (timeline_ && !world_.at_end()) {
+        if (is_recorded_ && !world_.at_end()) {
             if (options_.saving) options_.saving(bytes_of_strings() + world_.environment().memory_kept());
             write_checkpoint();
         }
@@ -177,9 +204,9 @@ private:
     void advance() {
         world_.step();
         note_step();
-        if (!timeline_ || world_.at_end()) return;
+        if (!is_recorded_ || world_.at_end()) return;
         const bool is_due = options_.checkpoint_every > 0 && world_.steps_done() % options_.checkpoint_every == 0;
-        if (is_due || may_be_dropped_next()) write_checkpoint();
+        if (is_due || any(options_.ranks, timeline_ && may_be_dropped_next())) write_checkpoint();
         check_disk();
     }
 
@@ -205,8 +232,14 @@ private:
     }
 
     void check_disk() {
-        if (!disk_->is_spent()) return;
+        if (!any(options_.ranks, disk_ && disk_->is_spent())) return;
         write_checkpoint();
+        together(options_.ranks, [&] {
+            if (disk_) refuse_disk();
+        });
+    }
+
+    [[noreturn]] void refuse_disk() const {
         throw RunError(fmt::format(
             "step {}: the run has written {}, and --disk allows {}. All of it is whole; `espalier resume {} --disk "
             "SIZE` "
@@ -249,9 +282,9 @@ private:
         if (timeline_) record_.write(*timeline_, exit, seconds());
     }
 
-    static bool is_asked_to_end() {
+    bool is_asked_to_end() const {
         const StopRequest* const request = StopRequest::current();
-        return request && request->is_asked();
+        return any(options_.ranks, request && request->is_asked());
     }
     double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
 
@@ -262,10 +295,29 @@ private:
     RunRecord record_;
     std::optional<Timeline> timeline_;
     std::optional<DiskBudget> disk_;
-    std::size_t warned_ = 0;     ///< how many of the world's warnings were told
-    double checkpoint_end_ = 0;  ///< seconds since the run began
+    const bool is_recorded_ = !options_.output.empty();  ///< by the first rank
+    std::size_t warned_ = 0;                             ///< how many of the world's warnings were told
+    double checkpoint_end_ = 0;                          ///< seconds since the run began
     std::optional<double> checkpoint_seconds_;
 };
+
+// Ranks that grow different worlds would wait for each other for ever, or worse.
+void require_same(const RunOptions& options) {
+    if (!options.ranks) return;
+    std::uint64_t inputs = digest(ESPALIER_VERSION);
+    for (const std::string& argument : options.arguments) inputs = digest(argument, inputs);
+    if (options.inputs) {
+        for (const auto& file : options.inputs->files()) inputs = digest(std::to_string(file.second.digest), inputs);
+    }
+    const std::vector<std::string> all = from_all(options.ranks, std::to_string(inputs));
+    for (std::size_t rank = 1; rank < all.size(); ++rank) {
+        if (all[rank] == all[0]) continue;
+        throw UserError(
+            fmt::format("rank {} runs another version of the program, other files, or other arguments than "
+                        "rank 0; all must see the same",
+                        rank));
+    }
+}
 
 }  // namespace
 
@@ -277,6 +329,7 @@ RunResult run(const Scene& scene, const RunOptions& options) {
     RunOptions resolved = options;
     if (resolved.memory == 0) resolved.memory = default_memory();
     if (resolved.disk == 0) resolved.disk = default_disk;
+    require_same(resolved);
     return Run(scene, resolved).walk();
 }
 

@@ -14,6 +14,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace espalier::simulation {
 namespace {
@@ -31,12 +32,23 @@ Box read_domain(const Settings& table) {
     return domain;
 }
 
+std::array<int, 2> read_blocks(const Settings& table) {
+    constexpr double most = 1024;
+    const std::vector<double> blocks = table.numbers("blocks");
+    const auto is_count = [](double n) { return n >= 1 && n <= most && n == std::floor(n); };
+    if (blocks.size() != 2 || !std::all_of(blocks.begin(), blocks.end(), is_count)) {
+        throw UserError(table.place("blocks"), "'blocks' are two whole numbers from 1 to 1024, along x and along z");
+    }
+    return {static_cast<int>(blocks[0]), static_cast<int>(blocks[1])};
+}
+
 void read_simulation(const Settings& table, Scene& scene) {
     if (table.has("steps")) scene.steps = static_cast<int>(table.integer("steps", Range::between(0, most_steps)));
     scene.seed = static_cast<std::uint64_t>(table.integer_or("seed", 0, Range::not_negative()));
     scene.dt = table.number_or("dt", 1, Range::positive());
     scene.time_unit = table.text_or("time_unit", "step");
     if (table.has("domain")) scene.domain = read_domain(table.table("domain"));
+    if (table.has("blocks")) scene.blocks = read_blocks(table);
     table.integer_or("steps", 0);  // so that a misspelt 'steps' is offered it
     table.reject_unread();
 }
@@ -233,6 +245,7 @@ const char* scene_help() {
   seed         0; the same seed gives the same bytes
   dt           1, > 0; duration of a step, in units of time
   time_unit    "step"; name of the unit of time
+  blocks       by the number of plants; [x, z]: number of blocks of ground, which the ranks of `mpiexec` share
   domain       grows with the plants, m; { lower = [x, y, z], upper = [x, y, z] }: the box of the environment
 
 [[plant]]      one table per individual or per stand

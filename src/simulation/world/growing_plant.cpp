@@ -39,6 +39,11 @@ void GrowingPlant::note_derived() {
     stopped = derivation.stopped();
 }
 
+void GrowingPlant::note_received() {
+    modules = string->size();
+    asks_ = interpretation->asks();
+}
+
 void GrowingPlant::set_length(int steps) {
     derivation.set_length(steps);
     note_derived();
@@ -144,7 +149,7 @@ PlantFrame GrowingPlant::frame(std::vector<Quantity> quantities) const {
             description->name,
             &model(),
             string.share(),
-            description->stages.empty() ? interpretation.share() : staged_.share(),
+            shown().share(),
             std::move(quantities),
             description->palette.get(),
             description->view ? description->view->background.get() : nullptr};

@@ -44,6 +44,8 @@ public:
     /// The string of the step before; null if its memory was passed on.
     const ModuleString* string_before() const { return keeps_previous_ ? &*previous_ : nullptr; }
     PlantView view() const { return {number, &model(), &*string, &*interpretation, asks_, &drawn().geometry}; }
+    /// After `string` and `interpretation` came from the rank that holds the plant.
+    void note_received();
     PlantFrame frame(std::vector<Quantity> quantities) const;
 
     std::uint32_t number;
@@ -53,14 +55,18 @@ public:
     std::size_t modules = 0, modules_before = 0;
     int length = 0;
     bool stopped = false;
+    bool is_here = true;  ///< false: another rank holds it, and what it sent of the plant is all there is
     Reusable<ModuleString> string;
     Reusable<Interpretation> interpretation;
     /// For light and recorders: the interpretation as the geometry stages leave it.
-    const Interpretation& drawn() const { return *(description->stages.empty() ? interpretation : staged_); }
+    const Interpretation& drawn() const { return *shown(); }
     PlantMemory memory;
 
 private:
     void regrow(ModuleString& to);
+    const Reusable<Interpretation>& shown() const {
+        return description->stages.empty() || !is_here ? interpretation : staged_;
+    }
     const Derivation& drawing() const { return regrown_ ? *regrown_ : derivation; }
     template <class Rewrite>
     void rewrite(const Rewrite& rewrite, ModuleString* spare);

@@ -7,12 +7,6 @@
 namespace espalier::simulation {
 namespace {
 
-template <class T>
-void save_column(const Column<T>& column, std::ostream& out) {
-    put(out, static_cast<std::uint64_t>(column.size()));
-    out.write(reinterpret_cast<const char*>(column.data()), static_cast<std::streamsize>(column.size() * sizeof(T)));
-}
-
 // In pieces: a damaged length must not ask for memory that its bytes do not fill.
 template <class T>
 void restore_column(Column<T>& column, std::size_t& memory, std::istream& in) {
@@ -34,7 +28,7 @@ void restore_column(Column<T>& column, std::size_t& memory, std::istream& in) {
 void save_siblings(const SiblingTable& siblings, std::ostream& out) {
     Column<Siblings> rows;
     for (std::size_t k = 0; k < siblings.size(); ++k) rows.push_back(siblings[k]);
-    save_column(rows, out);
+    put_column(out, rows);
 }
 
 void restore_siblings(SiblingTable& siblings, std::size_t& memory, std::istream& in) {
@@ -47,9 +41,9 @@ void restore_siblings(SiblingTable& siblings, std::size_t& memory, std::istream&
 }  // namespace
 
 void save_string(const ModuleString& string, std::ostream& out) {
-    save_column(string.letters, out);
-    save_column(string.parameters, out);
-    save_column(string.births, out);
+    put_column(out, string.letters);
+    put_column(out, string.parameters);
+    put_column(out, string.births);
     save_siblings(string.siblings, out);
 }
 

@@ -6,10 +6,11 @@
 #include "base/bytes.h"
 #include "simulation/scene/expressions.h"
 #include "simulation/scene/scene_keyframes.h"
+#include "simulation/spread/plant_bytes.h"
+#include "simulation/spread/spread.h"
 #include "simulation/world/every_plant.h"
 #include "simulation/world/growing_plant.h"
 #include "simulation/world/memory_budget.h"
-#include "simulation/world/string_checkpoint.h"
 #include "turtle/asking.h"
 
 #include <fmt/format.h>
@@ -17,8 +18,10 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -70,7 +73,16 @@ Scene with_defaults(Scene scene) {
 
 struct World::State {
     State(const Scene& described, std::size_t bytes, const std::filesystem::path& files,
-          std::shared_ptr<Printout> prints);
+          std::shared_ptr<Printout> prints, Ranks* ranks);
+
+    void all_do(const std::function<void()>& stage) { together(spread ? &spread->ranks() : nullptr, stage); }
+    void begin_step();
+    void end_step();
+    void agree_on_ends();
+    bool is_recorded();
+    void gather_frame();
+    void restore(std::istream& in);
+    static void drop(GrowingPlant& plant);
 
     void share_out_memory();
     void make_environment();
@@ -83,6 +95,7 @@ struct World::State {
     void find_fields_read();
     void take_fields();
     void store_answers();
+    void exchange();
 
     std::shared_ptr<Printout> printout;
     Scene scene;
@@ -92,10 +105,16 @@ struct World::State {
     ReadLog* reads = ReadLog::current();  ///< log of the thread that makes the world
     std::vector<GrowingPlant> plants;
     std::unique_ptr<Environment> environment;
+    std::unique_ptr<Spread> spread;        ///< null: all plants are here
     std::vector<std::string> fields_read;  ///< by turtles
     FieldValues fields;                    ///< while turtles walk, and after a restart until then
     bool has_restored_fields = false;
     std::vector<Recorder*> recorders;
+    std::optional<bool> has_recorders;                ///< on the first rank; asked for once
+    bool has_field_recorders = false;                 ///< the same, of those that read fields
+    std::vector<std::string> gathered;                ///< states of plants of other ranks, for a checkpoint
+    std::size_t modules_of_all = 0;                   ///< on all ranks
+    std::uint64_t sent_messages = 0, sent_bytes = 0;  ///< before the step
     int step = 0;
     int longest = 0;  ///< derivation length of the plants
     bool stopped = false;
@@ -104,6 +123,7 @@ struct World::State {
 };
 
 void World::start() {
+    state_->begin_step();
     write_axioms();
     interpret();
     exchange();
@@ -111,10 +131,23 @@ void World::start() {
 }
 
 void World::step() {
+    state_->begin_step();
     derive();
     interpret();
     exchange();
     record();
+}
+
+void World::State::begin_step() {
+    if (!spread) return;
+    sent_messages = spread->ranks().messages();
+    sent_bytes = spread->ranks().bytes();
+}
+
+void World::State::end_step() {
+    if (!spread) return;
+    times.messages = spread->ranks().messages() - sent_messages;
+    times.bytes = spread->ranks().bytes() - sent_bytes;
 }
 
 void World::write_axioms() {
@@ -129,21 +162,33 @@ void World::derive() {
 void World::State::rewrite(void (GrowingPlant::*stage)(ModuleString*)) {
     const Stopwatch stopwatch(times.derive);
     const bool is_plentiful = memory.is_plentiful();
-    for_every_plant(plants, reads, &GrowingPlant::prefetch_for_derivation,
-                    [&](GrowingPlant& plant, ModuleString& spare) {
-                        if (!memory.has_room()) return;
-                        memory.limit_strings(plant);
-                        (plant.*stage)(is_plentiful ? &spare : nullptr);
-                        memory.count_strings(plant);
-                    });
-    memory.check_strings(plants, step);
-    note_ends();
+    if (spread) spread->forget(plants);
+    all_do([&] {
+        for_every_plant(plants, reads, &GrowingPlant::prefetch_for_derivation,
+                        [&](GrowingPlant& plant, ModuleString& spare) {
+                            if (!plant.is_here || !memory.has_room()) return;
+                            memory.limit_strings(plant);
+                            (plant.*stage)(is_plentiful ? &spare : nullptr);
+                            memory.count_strings(plant);
+                        });
+        memory.check_strings(plants, step);
+        note_ends();
+    });
+    if (spread) agree_on_ends();
+}
+
+void World::State::agree_on_ends() {
+    const Ends ends = spread->agreed({longest, stopped, memory.modules()});
+    longest = ends.longest;
+    stopped = ends.stopped;
+    modules_of_all = ends.modules;
 }
 
 void World::State::note_ends() {
     longest = 0;
     stopped = false;
     for (const GrowingPlant& plant : plants) {
+        if (!plant.is_here) continue;
         longest = std::max(longest, plant.length);
         stopped = stopped || plant.stopped;
     }
@@ -152,14 +197,17 @@ void World::State::note_ends() {
 void World::interpret() {
     if (!state_->is_seen) return;
     const Stopwatch stopwatch(state_->times.interpret);
-    state_->take_fields();
-    for_every_plant(state_->plants, state_->reads, &GrowingPlant::prefetch_for_interpretation,
-                    [&](GrowingPlant& plant, ModuleString&) {
-                        plant.interpret(state_->fields, state_->time());
-                        state_->memory.count_drawn(plant, state_->step, size() > 1);
-                    });
-    state_->fields.forget();  // so that processes may write the next values over these
-    state_->memory.check_drawn(state_->plants, state_->step);
+    state_->all_do([&] {
+        state_->take_fields();
+        for_every_plant(state_->plants, state_->reads, &GrowingPlant::prefetch_for_interpretation,
+                        [&](GrowingPlant& plant, ModuleString&) {
+                            if (!plant.is_here) return;
+                            plant.interpret(state_->fields, state_->time());
+                            state_->memory.count_drawn(plant, state_->step, size() > 1);
+                        });
+        state_->fields.forget();  // so that processes may write the next values over these
+        state_->memory.check_drawn(state_->plants, state_->step);
+    });
 }
 
 // What processes left after the step before; a restarted world has it from its checkpoint.
@@ -178,19 +226,27 @@ void World::State::find_fields_read() {
 void World::exchange() {
     if (!state_->is_seen) return;
     const Stopwatch stopwatch(state_->times.exchange);
+    if (const auto& in_time = state_->scene.environment.in_time) in_time->set(*state_->environment, state_->time());
+    if (state_->spread) {
+        const bool first_sees_all = state_->is_recorded() && state_->has_field_recorders;
+        state_->spread->share(state_->plants, *state_->environment, state_->step, first_sees_all);
+    }
+    state_->all_do([&] { state_->exchange(); });
+}
+
+void World::State::exchange() {
     std::vector<PlantView> views;
     std::vector<ModuleString*> strings;
-    views.reserve(size());
-    strings.reserve(size());
-    for (GrowingPlant& plant : state_->plants) {
+    views.reserve(plants.size());
+    strings.reserve(plants.size());
+    for (GrowingPlant& plant : plants) {
         views.push_back(plant.view());
         strings.push_back(&*plant.string);
     }
-    if (const auto& in_time = state_->scene.environment.in_time) in_time->set(*state_->environment, state_->time());
-    state_->share_out_memory();
-    state_->environment->exchange({state_->step, state_->time(), state_->scene.dt, views}, strings);
-    state_->share_out_memory();
-    state_->store_answers();
+    share_out_memory();
+    environment->exchange({step, time(), scene.dt, views}, strings);
+    share_out_memory();
+    store_answers();
 }
 
 void World::answer_turtle_queries() {
@@ -210,18 +266,47 @@ void World::State::store_answers() {
 
 void World::record() {
     state_->times.record = 0;
-    if (state_->recorders.empty()) return;
-    const Stopwatch stopwatch(state_->times.record);
-    const StopRequest::Scope no_request(nullptr);  // a frame is recorded whole
-    const Frame now = frame();
-    for (Recorder* recorder : state_->recorders) recorder->record(now);
+    if (state_->spread ? state_->is_recorded() : !state_->recorders.empty()) {
+        const Stopwatch stopwatch(state_->times.record);
+        const StopRequest::Scope no_request(nullptr);  // a frame is recorded whole
+        if (state_->spread) state_->gather_frame();
+        state_->all_do([&] {
+            if (state_->recorders.empty()) return;
+            const Frame now = frame();
+            for (Recorder* recorder : state_->recorders) recorder->record(now);
+        });
+    }
+    state_->end_step();
+}
+
+// The first rank has the recorders.
+bool World::State::is_recorded() {
+    if (!has_recorders) {
+        const auto reads_fields = [](const Recorder* recorder) { return !recorder->fields().empty(); };
+        has_recorders = any(&spread->ranks(), !recorders.empty());
+        has_field_recorders = any(&spread->ranks(), std::any_of(recorders.begin(), recorders.end(), reads_fields));
+    }
+    return *has_recorders;
+}
+
+// Of a plant that another rank holds only its description stays.
+void World::State::drop(GrowingPlant& plant) {
+    plant.memory = {};
+    plant.string.for_writing() = {};
+    plant.modules = 0;
+}
+
+void World::State::gather_frame() {
+    spread->gather(plants, *environment, step);
+    if (!spread->is_first()) spread->forget(plants);
 }
 
 Frame World::frame() const {
     Frame frame{state_->step, state_->time(), {}, &state_->environment->fields(), at_end(), state_->environment.get()};
     frame.plants.reserve(size());
     for (const GrowingPlant& plant : state_->plants) {
-        frame.plants.push_back(plant.frame(state_->environment->statistics(plant.number)));
+        frame.plants.push_back(plant.frame(state_->spread ? state_->spread->statistics(*state_->environment, plant)
+                                                          : state_->environment->statistics(plant.number)));
     }
     return frame;
 }
@@ -232,7 +317,7 @@ std::filesystem::path folder_with(const Model& model) {
 }
 
 World::State::State(const Scene& described, std::size_t bytes, const std::filesystem::path& files,
-                    std::shared_ptr<Printout> prints)
+                    std::shared_ptr<Printout> prints, Ranks* ranks)
     : printout(prints ? std::move(prints) : std::make_shared<Printout>()),
       scene(with_defaults(described)),
       budget(bytes),
@@ -242,6 +327,9 @@ World::State::State(const Scene& described, std::size_t bytes, const std::filesy
     make_plants(files);
     find_fields_read();
     set_lengths();
+    if (!ranks) return;
+    spread = std::make_unique<Spread>(*ranks, scene, *environment, fields_read);
+    spread->mark(plants);
 }
 
 // Plants get what the fields leave, and fields what the plants leave.
@@ -312,8 +400,9 @@ void World::State::set_lengths() {
 }
 
 World::World(const Scene& scene, std::size_t memory, const std::filesystem::path& files,
-             std::shared_ptr<Printout> printout)
-    : state_(std::make_unique<State>(scene, memory, files, std::move(printout))) {}
+             std::shared_ptr<Printout> printout, Ranks* ranks) {
+    together(ranks, [&] { state_ = std::make_unique<State>(scene, memory, files, std::move(printout), ranks); });
+}
 
 World::~World() = default;
 World::World(World&&) noexcept = default;
@@ -362,14 +451,19 @@ void World::take(const DerivedStep& derived) {
     state_->note_ends();
 }
 
+void World::prepare_save() {
+    if (state_->spread) state_->gathered = state_->spread->states(state_->plants);
+}
+
 void World::save(std::ostream& out) const {
     put(out, checkpoint_signature);
     put(out, static_cast<std::int32_t>(state_->step));
     put(out, static_cast<std::uint64_t>(size()));
     for (const GrowingPlant& plant : state_->plants) {
-        plant.derivation.save(out);
-        save_string(*plant.string, out);
-        put(out, plant.memory);
+        if (plant.is_here)
+            put_state(out, plant);
+        else
+            out << state_->gathered[plant.number];
     }
     state_->environment->save(out);
     FieldValues fields;
@@ -378,22 +472,25 @@ void World::save(std::ostream& out) const {
 }
 
 void World::restore(std::istream& in) {
+    state_->all_do([&] { state_->restore(in); });
+    if (state_->spread) state_->agree_on_ends();
+}
+
+void World::State::restore(std::istream& in) {
     if (get<std::uint64_t>(in) != checkpoint_signature) throw RunError("this is not the checkpoint of a world");
-    const auto step = get<std::int32_t>(in);
-    if (get<std::uint64_t>(in) != size()) throw RunError("the checkpoint is of another scene");
-    for (GrowingPlant& plant : state_->plants) {
-        plant.derivation.restore(in);
-        restore_string(*plant.string, state_->memory.bytes(), in);
-        plant.note_derived();
-        plant.memory = get<PlantMemory>(in);
+    const auto saved = get<std::int32_t>(in);
+    if (get<std::uint64_t>(in) != plants.size()) throw RunError("the checkpoint is of another scene");
+    for (GrowingPlant& plant : plants) {
+        get_state(in, plant, memory.bytes());
+        if (!plant.is_here) drop(plant);
     }
-    state_->environment->restore(in);
-    state_->share_out_memory();
-    state_->fields.restore(in);
-    state_->has_restored_fields = true;
-    state_->step = step;
-    state_->note_ends();
-    state_->memory.check_drawn(state_->plants, step);
+    environment->restore(in);
+    share_out_memory();
+    fields.restore(in);
+    has_restored_fields = true;
+    step = saved;
+    note_ends();
+    memory.check_drawn(plants, step);
 }
 
 int World::steps_done() const {
@@ -409,7 +506,7 @@ bool World::stopped() const {
 }
 
 std::size_t World::modules() const {
-    return state_->memory.modules();
+    return state_->spread ? state_->modules_of_all : state_->memory.modules();
 }
 
 const StageTimes& World::times() const {

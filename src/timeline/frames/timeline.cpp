@@ -134,10 +134,10 @@ void Timeline::make_recorders(Settings& table) {
         if (auto recorder = type->make(table, context)) recorders_.push_back(std::move(recorder));
     }
     table.reject_unread();
-    std::vector<std::string> fields, organs;
+    std::vector<std::string> organs;
     for (const auto& recorder : recorders_) {
         sees_every_step_ = sees_every_step_ || recorder->sees_every_step();
-        std::ranges::copy(recorder->fields(), std::back_inserter(fields));
+        std::ranges::copy(recorder->fields(), std::back_inserter(fields_));
         std::ranges::copy(recorder->organs(), std::back_inserter(organs));
     }
     const auto write = [this](const Frame& frame, bool due) {
@@ -145,7 +145,7 @@ void Timeline::make_recorders(Settings& table) {
             if (due || recorder->sees_every_step()) recorder->record(frame);
         }
     };
-    writer_ = std::make_unique<FrameWriter>(std::move(fields), write, std::move(organs));
+    writer_ = std::make_unique<FrameWriter>(fields_, write, std::move(organs));
 }
 
 Timeline::~Timeline() = default;

@@ -1,0 +1,11 @@
+# Worlds that several processes grow together: a module, which the program opens when mpiexec or srun started it.
+find_package(MPI QUIET COMPONENTS C)
+option(ESPALIER_MPI "grow a world on the ranks of MPI" ${MPI_C_FOUND})
+if(ESPALIER_MPI)
+  find_package(MPI REQUIRED COMPONENTS C)
+  add_library(espalier_ranks MODULE src/app/ranks/mpi_ranks.cpp)
+  # Without the bindings of C++ that MPI gave up.
+  target_compile_definitions(espalier_ranks PRIVATE OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+  target_link_libraries(espalier_ranks PRIVATE espalier_options espalier_core MPI::MPI_C)
+  add_dependencies(espalier_program espalier_ranks)
+endif()

@@ -1,0 +1,27 @@
+// A plant of one rank as bytes for another.
+#pragma once
+
+#include "simulation/world/growing_plant.h"
+
+#include <cstddef>
+#include <iosfwd>
+#include <span>
+
+namespace espalier::simulation {
+
+/// Some queries of a plant, with their parameters and nothing else of the plant.
+void put_queries(std::ostream& out, std::span<const Query* const> queries);
+/// The plant then has a string of the parameters alone, where processes read and answer them.
+void get_queries(std::istream& in, GrowingPlant& plant);
+
+/// The string, what is drawn of it, and what it asks.
+void put_plant(std::ostream& out, const GrowingPlant& plant);
+/// `step` says which surfaces the plant has.
+void get_plant(std::istream& in, GrowingPlant& plant, int step);
+
+/// What lasts of a plant from step to step.
+void put_state(std::ostream& out, const GrowingPlant& plant);
+/// Its string takes no more than `memory` bytes. Throws RunError for bytes that are damaged.
+void get_state(std::istream& in, GrowingPlant& plant, std::size_t memory);
+
+}  // namespace espalier::simulation

@@ -1,0 +1,231 @@
+#include "simulation/spread/spread.h"
+
+#include "espalier/base/error.h"
+
+#include "base/bytes.h"
+#include "simulation/spread/blocks.h"
+#include "simulation/spread/plant_bytes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <sstream>
+
+namespace espalier::simulation {
+namespace {
+
+bool overlap(const Box& a, const Box& b) {
+    for (int axis = 0; axis < 3; ++axis) {
+        if (a.lower[axis] > b.upper[axis] || b.lower[axis] > a.upper[axis]) return false;
+    }
+    return true;
+}
+
+// The fields of a process are named "light" and "light.shade".
+bool is_field_of(const std::string& field, const std::string& process) {
+    return field == process || field.starts_with(process + ".");
+}
+
+Spreading spreading_of(const Environment& environment, std::size_t process, const std::vector<std::string>& fields) {
+    const Spreading spreading = environment.spreading(process);
+    const std::string& name = environment.name(process);
+    if (spreading == Spreading::refused) {
+        throw UserError(fmt::format("process '{}' cannot be spread over ranks; start the run without mpiexec", name));
+    }
+    // Turtles read fields anywhere.
+    const bool is_read =
+        std::any_of(fields.begin(), fields.end(), [&](const std::string& field) { return is_field_of(field, name); });
+    return spreading == Spreading::reach && is_read ? Spreading::queries : spreading;
+}
+
+}  // namespace
+
+Spread::Spread(Ranks& ranks, const Scene& scene, const Environment& environment,
+               const std::vector<std::string>& fields_read)
+    : ranks_(ranks), blocks_(blocks_of(scene)), statistics_(scene.plants.size()) {
+    rank_of_ = ranks_of(blocks_, std::vector<double>(blocks_.size(), 1.0), ranks.count());
+    for (std::size_t process = 0; process < environment.size(); ++process) {
+        spreadings_.push_back(spreading_of(environment, process, fields_read));
+        sends_plants_ = sends_plants_ || spreadings_.back() == Spreading::plants;
+    }
+}
+
+void Spread::mark(std::span<GrowingPlant> plants) const {
+    for (GrowingPlant& plant : plants) plant.is_here = rank_of_[plant.number] == ranks_.rank();
+}
+
+Ends Spread::agreed(const Ends& own) {
+    std::ostringstream out;
+    put(out, own);
+    Ends all;
+    for (const std::string& bytes : from_all(&ranks_, out.str())) {
+        std::istringstream in(bytes);
+        const auto one = get<Ends>(in);
+        all.longest = std::max(all.longest, one.longest);
+        all.stopped = all.stopped || one.stopped;
+        all.modules += one.modules;
+    }
+    return all;
+}
+
+std::vector<std::string> Spread::traded(const std::function<void(std::ostream& out, int rank)>& write) {
+    std::vector<std::string> to_each(static_cast<std::size_t>(ranks_.count()));
+    together(&ranks_, [&] {
+        for (int rank = 0; rank < ranks_.count(); ++rank) {
+            if (rank == ranks_.rank()) continue;
+            std::ostringstream out;
+            write(out, rank);
+            to_each[static_cast<std::size_t>(rank)] = std::move(out).str();
+        }
+    });
+    return ranks_.trade(std::move(to_each));
+}
+
+Spread::Places Spread::places_of(std::span<const GrowingPlant> plants, Environment& environment, int step) const {
+    std::map<std::size_t, std::vector<Box>> of_blocks;
+    for (const GrowingPlant& plant : plants) {
+        if (!plant.is_here) continue;
+        std::vector<Box>& boxes = of_blocks[blocks_[plant.number]];
+        boxes.resize(spreadings_.size());
+        const PlantView view = plant.view();
+        for (const Query& query : plant.interpretation->queries) {
+            const std::optional<std::size_t> process = environment.process_of(query, view, step);
+            if (process) boxes[*process].add(query.pose.position);
+        }
+    }
+    Places places;
+    for (auto& block : of_blocks) places.push_back(std::move(block.second));
+    return places;
+}
+
+std::vector<Spread::Places> Spread::places_of_all(const Places& own) {
+    std::ostringstream out;
+    put(out, static_cast<std::uint64_t>(own.size()));
+    for (const std::vector<Box>& boxes : own) put_column(out, boxes);
+    std::vector<Places> all;
+    for (const std::string& bytes : from_all(&ranks_, out.str())) {
+        std::istringstream in(bytes);
+        Places& places = all.emplace_back(get<std::uint64_t>(in));
+        for (std::vector<Box>& boxes : places) get_column(in, boxes);
+    }
+    return all;
+}
+
+void Spread::select(const GrowingPlant& plant, Environment& environment, int step, const Places& places, bool sees_all,
+                    std::vector<const Query*>& selected) const {
+    selected.clear();
+    const PlantView view = plant.view();
+    for (const Query& query : plant.interpretation->queries) {
+        const std::optional<std::size_t> process = environment.process_of(query, view, step);
+        if (!process) continue;
+        bool is_needed = sees_all || spreadings_[*process] != Spreading::reach;
+        if (!is_needed) {
+            const Box reach = environment.reach(*process, query);
+            is_needed = !reach.empty() && std::any_of(places.begin(), places.end(), [&](const std::vector<Box>& boxes) {
+                return overlap(reach, boxes[*process]);
+            });
+        }
+        if (is_needed) selected.push_back(&query);
+    }
+}
+
+void Spread::put_shared(std::ostream& out, std::span<const GrowingPlant> plants, Environment& environment, int step,
+                        const Places& places, bool sees_all) const {
+    std::vector<const Query*> selected;
+    for (const GrowingPlant& plant : plants) {
+        if (!plant.is_here) continue;
+        if (sends_plants_) {
+            put(out, plant.number);
+            put_plant(out, plant);
+            continue;
+        }
+        select(plant, environment, step, places, sees_all, selected);
+        if (selected.empty()) continue;
+        put(out, plant.number);
+        put_queries(out, selected);
+    }
+}
+
+void Spread::share(std::span<GrowingPlant> plants, Environment& environment, int step, bool first_sees_all) {
+    forget(plants);
+    Places own;
+    together(&ranks_, [&] { own = places_of(plants, environment, step); });
+    const std::vector<Places> places = places_of_all(own);
+    const std::vector<std::string> received = traded([&](std::ostream& out, int rank) {
+        put_shared(out, plants, environment, step, places[static_cast<std::size_t>(rank)], first_sees_all && rank == 0);
+    });
+    for (const std::string& bytes : received) {
+        std::istringstream in(bytes);
+        while (in.peek() != std::istringstream::traits_type::eof()) {
+            GrowingPlant& plant = plants[get<std::uint32_t>(in)];
+            if (sends_plants_)
+                get_plant(in, plant, step);
+            else
+                get_queries(in, plant);
+        }
+    }
+}
+
+void Spread::gather(std::span<GrowingPlant> plants, const Environment& environment, int step) {
+    const std::vector<std::string> received = traded([&](std::ostream& out, int rank) {
+        if (rank != 0) return;
+        for (const GrowingPlant& plant : plants) {
+            if (!plant.is_here) continue;
+            put(out, plant.number);
+            std::vector<double> values;
+            for (const Quantity& quantity : environment.statistics(plant.number)) values.push_back(quantity.value);
+            put_column(out, values);
+            if (!sends_plants_) put_plant(out, plant);
+        }
+    });
+    for (const std::string& bytes : received) {
+        std::istringstream in(bytes);
+        while (in.peek() != std::istringstream::traits_type::eof()) {
+            const auto number = get<std::uint32_t>(in);
+            std::vector<double> values;
+            get_column(in, values);
+            statistics_[number] = environment.statistics(number);
+            for (std::size_t i = 0; i < values.size(); ++i) statistics_[number].at(i).value = values[i];
+            if (!sends_plants_) get_plant(in, plants[number], step);
+        }
+    }
+}
+
+std::vector<Quantity> Spread::statistics(const Environment& environment, const GrowingPlant& plant) const {
+    return plant.is_here ? environment.statistics(plant.number) : statistics_[plant.number];
+}
+
+void Spread::forget(std::span<GrowingPlant> plants) const {
+    for (GrowingPlant& plant : plants) {
+        if (plant.is_here || (plant.string->empty() && !plant.interpretation->asks())) continue;
+        plant.string.for_writing() = {};
+        plant.interpretation.for_writing() = {};
+        plant.note_received();
+    }
+}
+
+std::vector<std::string> Spread::states(std::span<const GrowingPlant> plants) {
+    const std::vector<std::string> received = traded([&](std::ostream& out, int rank) {
+        if (rank != 0) return;
+        for (const GrowingPlant& plant : plants) {
+            if (!plant.is_here) continue;
+            std::ostringstream state;
+            put_state(state, plant);
+            put(out, plant.number);
+            put_text(out, state.str());
+        }
+    });
+    std::vector<std::string> states(plants.size());
+    for (const std::string& bytes : received) {
+        std::istringstream in(bytes);
+        while (in.peek() != std::istringstream::traits_type::eof()) {
+            std::string& state = states[get<std::uint32_t>(in)];
+            state = get_text(in, std::numeric_limits<std::uint64_t>::max());
+        }
+    }
+    return states;
+}
+
+}  // namespace espalier::simulation

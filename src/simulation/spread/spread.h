@@ -1,0 +1,78 @@
+// A world whose plants several ranks hold: what an exchange, a frame and a checkpoint need from the others.
+#pragma once
+
+#include "espalier/environment/environment.h"
+#include "espalier/simulation/ranks.h"
+#include "espalier/simulation/scene.h"
+
+#include "simulation/world/growing_plant.h"
+
+#include <functional>
+#include <iosfwd>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace espalier::simulation {
+
+/// What all ranks must know of a derivation.
+struct Ends {
+    int longest = 0;  ///< derivation length of the plants
+    bool stopped = false;
+    std::size_t modules = 0;
+};
+
+/// Every rank derives and interprets the plants of its own blocks. In an exchange each process answers, on every rank,
+/// the queries of the plants that the rank holds, having seen those queries of others that its kind of Spreading asks
+/// for; answers to the others' are thrown away. So the values are those of one rank that holds all plants. The first
+/// rank records: it gets the plants whole. All ranks call the same functions in the same order.
+class Spread {
+public:
+    /// `fields_read`: the fields that turtles read. Throws UserError for a process that cannot be spread, and where
+    /// there are more ranks than blocks.
+    Spread(Ranks& ranks, const Scene& scene, const Environment& environment,
+           const std::vector<std::string>& fields_read);
+
+    Ranks& ranks() { return ranks_; }
+    bool is_first() const { return ranks_.rank() == 0; }
+    void mark(std::span<GrowingPlant> plants) const;
+
+    /// Of the plants of all ranks.
+    Ends agreed(const Ends& own);
+
+    /// Before the exchange: plants of others get what processes must see of them. `first_sees_all`: on the first rank,
+    /// whose fields are recorded, processes see all queries.
+    void share(std::span<GrowingPlant> plants, Environment& environment, int step, bool first_sees_all);
+    /// After the exchange: the first rank gets all plants and what its processes say of each, for a frame.
+    void gather(std::span<GrowingPlant> plants, const Environment& environment, int step);
+    /// What the processes of the rank that holds a plant say of it.
+    std::vector<Quantity> statistics(const Environment& environment, const GrowingPlant& plant) const;
+    /// Forgets what was received of plants that others hold.
+    void forget(std::span<GrowingPlant> plants) const;
+
+    /// Returns, on the first rank, the state of each plant that another holds, by its number.
+    std::vector<std::string> states(std::span<const GrowingPlant> plants);
+
+private:
+    /// Where queries of a rank may be asked whose answers others change: a box for each of its blocks and processes.
+    using Places = std::vector<std::vector<Box>>;
+
+    Places places_of(std::span<const GrowingPlant> plants, Environment& environment, int step) const;
+    std::vector<Places> places_of_all(const Places& own);
+    void select(const GrowingPlant& plant, Environment& environment, int step, const Places& places, bool sees_all,
+                std::vector<const Query*>& selected) const;
+    void put_shared(std::ostream& out, std::span<const GrowingPlant> plants, Environment& environment, int step,
+                    const Places& places, bool sees_all) const;
+    /// Trades what `write` writes for each of the other ranks; returns what they wrote for this one, an empty text for
+    /// itself.
+    std::vector<std::string> traded(const std::function<void(std::ostream& out, int rank)>& write);
+
+    Ranks& ranks_;
+    std::vector<std::size_t> blocks_;                ///< of plants
+    std::vector<int> rank_of_;                       ///< of plants
+    std::vector<Spreading> spreadings_;              ///< of processes
+    bool sends_plants_ = false;                      ///< whole ones, to all
+    std::vector<std::vector<Quantity>> statistics_;  ///< of plants that others hold
+};
+
+}  // namespace espalier::simulation

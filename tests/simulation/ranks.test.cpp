@@ -1,0 +1,190 @@
+// Worlds that several ranks grow together: the bytes of one that grows alone.
+#include "espalier/simulation/simulation.h"
+
+#include "catch.h"
+#include "simulation/spread/blocks.h"
+#include "temporary_folder.h"
+#include "thread_ranks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+
+using namespace espalier;
+using namespace espalier::simulation;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+// Branches of 2 m and more reach across the borders of blocks that are 2 m wide.
+const char* const shading =
+    "environment light;\nlsystem: 1\nseed: 2\nderivation length: 9\naxiom: A(1)\n"
+    "A(x) --> F(x)?light(1)[+A(x*0.9)?light(1)]/(90)A(x) : 1\n"
+    "A(x) --> F(x)[-A(x*0.8)?light(1)]A(x*0.99)?light(1) : 2\n"
+    "?light(q) : q < 0.2 --> \nF(x) : x < 4 --> F(x*1.01)\nhomomorphism\nA(x) --> @O(0.1)\nendlsystem\n";
+
+class Spread : public TemporaryFolder {
+public:
+    Spread() { write("plant.l", shading); }
+
+    Scene scene(const std::string& rest, const std::string& simulation = "") const {
+        return read_scene_text(
+            "[simulation]\nseed = 11\n" + simulation +
+                "[[plant]]\nmodel = 'plant.l'\ngrid = { columns = 4, rows = 3, spacing = 2, jitter = 1 }\n" + rest,
+            "scene.toml", path());
+    }
+
+    /// Runs the scene on so many ranks; returns what went wrong on each.
+    std::vector<std::string> run_on(std::size_t count, const Scene& scene, const std::string& folder,
+                                    const std::function<void(RunOptions&, Ranks&)>& change = {}) const {
+        return on_ranks(count, [&](Ranks& ranks) {
+            RunOptions options;
+            options.output = path() / folder;
+            options.ranks = &ranks;
+            if (change) change(options, ranks);
+            run(scene, options);
+        });
+    }
+
+    void run_alone(const Scene& scene) const {
+        RunOptions options;
+        options.output = path() / "alone";
+        options.overwrite = true;
+        run(scene, options);
+    }
+
+    std::map<std::string, std::string> files(const std::string& folder) const {
+        std::map<std::string, std::string> files;
+        for (const auto& entry : fs::recursive_directory_iterator(path() / folder)) {
+            const std::string name = entry.path().lexically_relative(path() / folder).string();
+            if (entry.is_regular_file() && name != "run.json" && name != "timings.csv")
+                files[name] = text_of(entry.path());
+        }
+        return files;
+    }
+
+    void check_same(const std::string& folder) const {
+        const auto alone = files("alone"), spread = files(folder);
+        REQUIRE(alone.size() > 10);
+        REQUIRE(spread.size() == alone.size());
+        for (const auto& [name, bytes] : alone) {
+            INFO(name);
+            CHECK(spread.at(name) == bytes);
+        }
+    }
+};
+
+const char* const light = "[environment.light]\nprocess = 'voxel-shade'\nvoxel = 0.5\nmode = 'attenuate'\ndepth = 5\n";
+
+bool all_are_silent(const std::vector<std::string>& errors) {
+    return std::all_of(errors.begin(), errors.end(), [](const std::string& error) { return error.empty(); });
+}
+
+}  // namespace
+
+TEST_CASE_METHOD(Spread, "a world has the same bytes on any number of ranks", "[simulation][ranks]") {
+    const std::string process = GENERATE(
+        std::string(light), std::string(light) + "[timeline]\nfields = ['light']\n",
+        std::string(
+            "[environment.light]\nprocess = 'voxel-shade'\ndomain = { lower = [-2, -1, -2], upper = [8, 9, 6] }\n"
+            "voxel = 0.5\nperiodic = true\n"),
+        std::string("[environment.light]\nprocess = 'density'\n"),
+        std::string("[environment.light]\nprocess = 'canopy-light'\nvoxel = 0.5\n"),
+        std::string("[[plant.stage]]\nstage = 'pipe-radii'\n[[plant.stage]]\nstage = 'leaves'\n") + light);
+    const Scene described = scene(process);
+    run_alone(described);
+    for (const std::size_t count : {2u, 3u, 5u}) {
+        const std::string folder = fmt::format("on-{}", count);
+        INFO(process << count);
+        REQUIRE(all_are_silent(run_on(count, described, folder)));
+        check_same(folder);
+    }
+}
+
+TEST_CASE_METHOD(Spread, "a world has the same bytes whatever its blocks are", "[simulation][ranks]") {
+    run_alone(scene(light));
+    for (const char* blocks : {"blocks = [1, 3]\n", "blocks = [3, 1]\n", "blocks = [7, 5]\n"}) {
+        const std::string folder = fmt::format("blocks-{}", blocks[10]);
+        REQUIRE(all_are_silent(run_on(3, scene(light, blocks), folder)));
+        check_same(folder);
+    }
+}
+
+TEST_CASE_METHOD(Spread, "only queries that change answers elsewhere are sent", "[simulation][ranks]") {
+    // Two rows of plants that no pyramid connects.
+    const auto sent = [&](double apart) {
+        const Scene described = read_scene_text(
+            fmt::format("[[plant]]\nmodel = 'plant.l'\npositions = [[0, 0, 0], [{}, 0, 0]]\n{}", apart, light),
+            "scene.toml", path());
+        std::array<std::uint64_t, 2> bytes{};
+        on_ranks(2, [&](Ranks& ranks) {
+            World world(described, std::size_t(-1), {}, nullptr, &ranks);
+            world.start();
+            for (int step = 0; step < 8; ++step) world.step();
+            bytes[static_cast<std::size_t>(ranks.rank())] = world.times().bytes;
+        });
+        return bytes[0] + bytes[1];
+    };
+    CHECK(sent(1) > 10 * sent(1000));
+}
+
+TEST_CASE_METHOD(Spread, "a run goes on from its checkpoint with another number of ranks", "[simulation][ranks]") {
+    const Scene described = scene(light);
+    run_alone(described);
+    const auto fail_at_the_sixth_step = [](RunOptions& options, Ranks&) {
+        options.checkpoint_every = 2;
+        options.progress = [](const Progress& progress) {
+            if (progress.step == 5) throw RunError("the machine is gone");
+        };
+    };
+    const std::vector<std::string> errors = run_on(3, described, "again", fail_at_the_sixth_step);
+    for (const std::string& error : errors) CHECK_THAT(error, Contains("the machine is gone"));
+    REQUIRE(all_are_silent(run_on(2, described, "again", [](RunOptions& options, Ranks&) { options.resume = true; })));
+    check_same("again");
+}
+
+TEST_CASE_METHOD(Spread, "what fails on one rank ends all with its message", "[simulation][ranks]") {
+    write("falling.l", "lsystem: 1\nderivation length: 9\naxiom: A(4)\nA(x) --> F(1/x)A(x-1)\nendlsystem\n");
+    const Scene described = read_scene_text(
+        "[[plant]]\nmodel = 'plant.l'\nposition = [9, 0, 0]\n[[plant]]\nmodel = 'falling.l'\nname = 'weak'\n" +
+            std::string(light),
+        "scene.toml", path());
+    const std::vector<std::string> errors = run_on(2, described, "failed");
+    for (const std::string& error : errors) CHECK_THAT(error, Contains("weak"));
+    CHECK_FALSE(files("failed").empty());  // the frames before are kept
+}
+
+TEST_CASE_METHOD(Spread, "a process that says nothing of ranks is refused by all", "[simulation][ranks]") {
+    const Scene described = scene("[environment.light]\nprocess = 'external'\ncommand = ['cat']\n");
+    for (const std::string& error : run_on(2, described, "refused"))
+        CHECK_THAT(error, Contains("cannot be spread over ranks"));
+}
+
+TEST_CASE_METHOD(Spread, "ranks without a block are refused by all", "[simulation][ranks]") {
+    for (const std::string& error : run_on(3, scene(light, "blocks = [2, 1]\n"), "refused")) {
+        CHECK_THAT(error, Contains("there are 3 ranks but only 2 blocks with plants"));
+    }
+}
+
+TEST_CASE_METHOD(Spread, "ranks hold blocks that follow each other, of about the same weight", "[simulation][ranks]") {
+    const auto blocks_and_ranks = GENERATE(std::pair(7, 2), std::pair(40, 3), std::pair(40, 39), std::pair(64, 8));
+    const auto [count, ranks] = blocks_and_ranks;
+    for (const int heavy : {1, 5, 30}) {
+        std::vector<std::size_t> blocks(static_cast<std::size_t>(count));
+        std::iota(blocks.begin(), blocks.end(), 0);
+        std::vector<double> weights(blocks.size(), 1);
+        weights[2] = heavy;
+        const std::vector<int> rank = ranks_of(blocks, weights, ranks);
+        INFO(count << " blocks, " << ranks << " ranks, one of weight " << heavy);
+        CHECK(std::is_sorted(rank.begin(), rank.end()));
+        CHECK(std::set<int>(rank.begin(), rank.end()).size() == static_cast<std::size_t>(ranks));
+        std::map<int, double> held;
+        for (std::size_t i = 0; i < rank.size(); ++i) held[rank[i]] += weights[i];
+        const double mean = std::accumulate(weights.begin(), weights.end(), 0.0) / ranks;
+        for (const auto& one : held) CHECK(one.second <= mean + heavy + 1);
+    }
+}
