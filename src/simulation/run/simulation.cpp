@@ -15,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <fstream>
@@ -310,13 +311,13 @@ void require_same(const RunOptions& options) {
         for (const auto& file : options.inputs->files()) inputs = digest(std::to_string(file.second.digest), inputs);
     }
     const std::vector<std::string> all = from_all(options.ranks, std::to_string(inputs));
-    for (std::size_t rank = 1; rank < all.size(); ++rank) {
-        if (all[rank] == all[0]) continue;
-        throw UserError(
-            fmt::format("rank {} runs another version of the program, other files, or other arguments than "
-                        "rank 0; all must see the same",
-                        rank));
-    }
+    together(options.ranks, [&] {
+        const auto other = std::find_if(all.begin(), all.end(), [&](const std::string& one) { return one != all[0]; });
+        if (other == all.end()) return;
+        throw UserError(fmt::format("rank {} runs another version of the program, other files, or other arguments than "
+                                    "rank 0; all must see the same",
+                                    other - all.begin()));
+    });
 }
 
 }  // namespace
