@@ -147,6 +147,35 @@ TEST_CASE_METHOD(Spread, "a run goes on from its checkpoint with another number 
     check_same("again");
 }
 
+TEST_CASE_METHOD(Spread, "plants move to ranks that have less to do, and no byte changes", "[simulation][ranks]") {
+    // The plants in the last row become a hundred times as large as the others.
+    write("large.l", "lsystem: 1\nderivation length: 9\naxiom: A\nA --> F[+A][-A]A\nendlsystem\n");
+    write("small.l", "lsystem: 1\nderivation length: 9\naxiom: A\nA --> FA\nendlsystem\n");
+    const std::string plants =
+        "[[plant]]\nmodel = 'small.l'\ngrid = { columns = 4, rows = 3, spacing = 2 }\n"
+        "[[plant]]\nmodel = 'large.l'\ngrid = { columns = 4, rows = 1, spacing = 2 }\nposition = [0, 0, 9]\n";
+    const Scene described = read_scene_text(plants, "scene.toml", path());
+    run_alone(described);
+    REQUIRE(all_are_silent(
+        run_on(2, described, "moved", [](RunOptions& options, Ranks&) { options.checkpoint_every = 1; })));
+    check_same("moved");
+
+    std::array<std::size_t, 2> modules{};
+    const std::vector<std::string> errors = on_ranks(2, [&](Ranks& ranks) {
+        World world(described, std::size_t(-1), {}, nullptr, &ranks);
+        world.start();
+        for (int step = 0; step < 9; ++step) {
+            world.step();
+            world.prepare_save();
+        }
+        for (std::size_t plant = 0; plant < world.size(); ++plant) {
+            modules[static_cast<std::size_t>(ranks.rank())] += world.string(plant).size();
+        }
+    });
+    for (const std::string& error : errors) CHECK(error == "");
+    CHECK(std::min(modules[0], modules[1]) > (modules[0] + modules[1]) / 4);  // all large ones began on one rank
+}
+
 TEST_CASE_METHOD(Spread, "what fails on one rank ends all with its message", "[simulation][ranks]") {
     write("falling.l", "lsystem: 1\nderivation length: 9\naxiom: A(4)\nA(x) --> F(1/x)A(x-1)\nendlsystem\n");
     const Scene described = read_scene_text(

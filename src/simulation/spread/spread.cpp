@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <sstream>
 
 namespace espalier::simulation {
@@ -21,6 +22,13 @@ bool overlap(const Box& a, const Box& b) {
         if (a.lower[axis] > b.upper[axis] || b.lower[axis] > a.upper[axis]) return false;
     }
     return true;
+}
+
+/// Says whether the load of ranks differs so much that moving plants pays.
+bool is_lopsided(const std::vector<double>& loads) {
+    constexpr double worth_moving = 1.3;
+    const double sum = std::accumulate(loads.begin(), loads.end(), 0.0);
+    return *std::max_element(loads.begin(), loads.end()) > worth_moving * sum / static_cast<double>(loads.size());
 }
 
 // The fields of a process are named "light" and "light.shade".
@@ -226,6 +234,73 @@ std::vector<std::string> Spread::states(std::span<const GrowingPlant> plants) {
         }
     }
     return states;
+}
+
+// Seconds that each plant takes: those of its rank, by the modules.
+std::vector<double> Spread::weights_of(std::span<const GrowingPlant> plants, double seconds) {
+    double modules = 0;
+    std::vector<std::uint32_t> held;
+    for (const GrowingPlant& plant : plants) {
+        if (!plant.is_here) continue;
+        held.push_back(plant.number);
+        modules += static_cast<double>(plant.modules);
+    }
+    std::ostringstream out;
+    for (const std::uint32_t number : held) {
+        put(out, number);
+        put(out, seconds * static_cast<double>(plants[number].modules) / std::max(modules, 1.0));
+    }
+    std::vector<double> weights(plants.size());
+    for (const std::string& bytes : from_all(&ranks_, out.str())) {
+        std::istringstream in(bytes);
+        while (in.peek() != std::istringstream::traits_type::eof()) {
+            double& weight = weights[get<std::uint32_t>(in)];
+            weight = get<double>(in);
+        }
+    }
+    return weights;
+}
+
+void Spread::balance(std::span<GrowingPlant> plants, double seconds, std::size_t memory) {
+    const std::vector<double> weights = weights_of(plants, seconds);
+    const auto loads = [&](const std::vector<int>& rank_of) {
+        std::vector<double> loads(static_cast<std::size_t>(ranks_.count()));
+        for (std::size_t plant = 0; plant < weights.size(); ++plant) {
+            loads[static_cast<std::size_t>(rank_of[plant])] += weights[plant];
+        }
+        return loads;
+    };
+    if (!is_lopsided(loads(rank_of_))) return;
+    const std::vector<int> better = ranks_of(blocks_, weights, ranks_.count());
+    if (std::ranges::max(loads(better)) < std::ranges::max(loads(rank_of_))) move(plants, better, memory);
+}
+
+void Spread::move(std::span<GrowingPlant> plants, const std::vector<int>& to, std::size_t memory) {
+    const std::vector<std::string> received = traded([&](std::ostream& out, int rank) {
+        for (const GrowingPlant& plant : plants) {
+            if (!plant.is_here || to[plant.number] != rank) continue;
+            put(out, plant.number);
+            put_state(out, plant);
+        }
+    });
+    rank_of_ = to;
+    forget(plants);
+    for (GrowingPlant& plant : plants) {
+        if (!plant.is_here || to[plant.number] == ranks_.rank()) continue;
+        plant.is_here = false;
+        plant.memory = {};
+        forget({&plant, 1});
+    }
+    together(&ranks_, [&] {
+        for (const std::string& bytes : received) {
+            std::istringstream in(bytes);
+            while (in.peek() != std::istringstream::traits_type::eof()) {
+                GrowingPlant& plant = plants[get<std::uint32_t>(in)];
+                get_state(in, plant, memory);
+                plant.is_here = true;
+            }
+        }
+    });
 }
 
 }  // namespace espalier::simulation

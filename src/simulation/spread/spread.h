@@ -53,6 +53,10 @@ public:
     /// Returns, on the first rank, the state of each plant that another holds, by its number.
     std::vector<std::string> states(std::span<const GrowingPlant> plants);
 
+    /// Moves plants, block by block, where the slowest rank takes 1.3 times as long as the mean. `seconds`: what this
+    /// rank has worked on its plants since it was asked last. `memory`: bytes that a plant's string may take.
+    void balance(std::span<GrowingPlant> plants, double seconds, std::size_t memory);
+
 private:
     /// Where queries of a rank may be asked whose answers others change: a box for each of its blocks and processes.
     using Places = std::vector<std::vector<Box>>;
@@ -61,6 +65,8 @@ private:
     std::vector<Places> places_of_all(const Places& own);
     void select(const GrowingPlant& plant, Environment& environment, int step, const Places& places, bool sees_all,
                 std::vector<const Query*>& selected) const;
+    std::vector<double> weights_of(std::span<const GrowingPlant> plants, double seconds);
+    void move(std::span<GrowingPlant> plants, const std::vector<int>& to, std::size_t memory);
     void put_shared(std::ostream& out, std::span<const GrowingPlant> plants, Environment& environment, int step,
                     const Places& places, bool sees_all) const;
     /// Trades what `write` writes for each of the other ranks; returns what they wrote for this one, an empty text for

@@ -42,6 +42,21 @@ private:
     std::chrono::steady_clock::time_point begin_;
 };
 
+/// Adds to the seconds; a Stopwatch sets them.
+class BusyTime {
+public:
+    explicit BusyTime(double& sum) : sum_(sum) {}
+    ~BusyTime() {
+        stopwatch_.reset();
+        sum_ += seconds_;
+    }
+
+private:
+    double& sum_;
+    double seconds_ = 0;
+    std::optional<Stopwatch> stopwatch_{std::in_place, seconds_};
+};
+
 // A plant's name as the name of a folder; names that differ stay different.
 std::string folder_of(const std::string& name) {
     std::string folder;
@@ -114,6 +129,8 @@ struct World::State {
     bool has_field_recorders = false;                 ///< the same, of those that read fields
     std::vector<std::string> gathered;                ///< states of plants of other ranks, for a checkpoint
     std::size_t modules_of_all = 0;                   ///< on all ranks
+    bool is_saved = false;                            ///< before the step, for a checkpoint: plants may move
+    double busy = 0;                                  ///< seconds of work on the plants since they might have moved
     std::uint64_t sent_messages = 0, sent_bytes = 0;  ///< before the step
     int step = 0;
     int longest = 0;  ///< derivation length of the plants
@@ -140,6 +157,10 @@ void World::step() {
 
 void World::State::begin_step() {
     if (!spread) return;
+    if (std::exchange(is_saved, false)) {
+        spread->balance(plants, std::exchange(busy, 0), memory.bytes());
+        all_do([&] { memory.check_drawn(plants, step); });
+    }
     sent_messages = spread->ranks().messages();
     sent_bytes = spread->ranks().bytes();
 }
@@ -164,6 +185,7 @@ void World::State::rewrite(void (GrowingPlant::*stage)(ModuleString*)) {
     const bool is_plentiful = memory.is_plentiful();
     if (spread) spread->forget(plants);
     all_do([&] {
+        const BusyTime busy_time(busy);
         for_every_plant(plants, reads, &GrowingPlant::prefetch_for_derivation,
                         [&](GrowingPlant& plant, ModuleString& spare) {
                             if (!plant.is_here || !memory.has_room()) return;
@@ -198,6 +220,7 @@ void World::interpret() {
     if (!state_->is_seen) return;
     const Stopwatch stopwatch(state_->times.interpret);
     state_->all_do([&] {
+        const BusyTime busy_time(state_->busy);
         state_->take_fields();
         for_every_plant(state_->plants, state_->reads, &GrowingPlant::prefetch_for_interpretation,
                         [&](GrowingPlant& plant, ModuleString&) {
@@ -452,7 +475,9 @@ void World::take(const DerivedStep& derived) {
 }
 
 void World::prepare_save() {
-    if (state_->spread) state_->gathered = state_->spread->states(state_->plants);
+    if (!state_->spread) return;
+    state_->gathered = state_->spread->states(state_->plants);
+    state_->is_saved = true;
 }
 
 void World::save(std::ostream& out) const {

@@ -1,0 +1,108 @@
+// The program as mpiexec starts it: several processes, one run.
+#include "catch.h"
+#include "program.h"
+
+#include <filesystem>
+#include <map>
+
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+const char* const growing =
+    "environment light;\nlsystem: 1\nseed: 2\nderivation length: 40\naxiom: A(1)\n"
+    "A(x) --> F(x)[+A(x*0.9)?light(1)] : 1\nA(x) --> F(x)A(x*0.99) : 2\nF(x) : x < 4 --> F(x*1.01)\nendlsystem\n";
+
+const char* const stand =
+    "[[plant]]\nmodel = \"growing.l\"\ngrid = { columns = 2, rows = 2, spacing = 1 }\n"
+    "[environment.light]\nprocess = \"voxel-shade\"\n[timeline]\nfields = [\"light\"]\n";
+
+/// Debian's mpiexec, on a machine with fewer cores than ranks, for whoever runs the tests.
+const std::string mpiexec = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpiexec --oversubscribe ";
+
+bool has_ranks() {
+    return fs::exists(fs::path(ESPALIER_PROGRAM).parent_path() / "libespalier_ranks.so") &&
+           std::system("command -v mpiexec >/dev/null") == 0;
+}
+
+class Launched : public Workplace {
+public:
+    Launched() {
+        write("growing.l", growing);
+        write("stand.toml", stand);
+    }
+
+    Outcome launch(int ranks, const std::string& arguments) const {
+        return run(arguments, mpiexec + "-n " + std::to_string(ranks));
+    }
+
+    std::map<std::string, std::string> files(const std::string& folder) const {
+        std::map<std::string, std::string> files;
+        for (const auto& item : fs::recursive_directory_iterator(path() / folder)) {
+            const std::string name = item.path().lexically_relative(path() / folder).string();
+            if (item.is_regular_file() && name != "run.json" && name != "timings.csv")
+                files[name] = text_of(item.path());
+        }
+        return files;
+    }
+};
+
+}  // namespace
+
+TEST_CASE_METHOD(Launched, "mpiexec grows a scene as one process does, and only the first rank speaks",
+                 "[app][ranks]") {
+    if (!has_ranks()) return;
+    REQUIRE(run("run stand.toml --quiet --output alone").code == 0);
+    const Outcome outcome = launch(3, "run stand.toml --output spread --threads 1");
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.out, Contains("40 of 40 steps"));
+    CHECK(outcome.out.find("40 of 40 steps") == outcome.out.rfind("40 of 40 steps"));
+    CHECK(files("spread") == files("alone"));
+    CHECK_THAT(text_of(path() / "spread" / "run.json"), Contains("\"ranks\": 3"));
+}
+
+TEST_CASE_METHOD(Launched, "a rank that is killed ends the run, and resume goes on with other ranks", "[app][ranks]") {
+    if (!has_ranks()) return;
+    REQUIRE(run("run stand.toml --quiet --output alone").code == 0);
+    // The shell knows rank 1 by its variable, and kills it once there is a checkpoint.
+    write("rank.sh",
+          "if [ \"$OMPI_COMM_WORLD_RANK\" = 1 ]; then\n"
+          "  '" ESPALIER_PROGRAM
+          "' \"$@\" & process=$!\n"
+          "  while [ ! -e again/checkpoint ] && kill -0 $process; do sleep 0.01; done\n"
+          "  kill -9 $process; wait $process\n"
+          "else exec '" ESPALIER_PROGRAM "' \"$@\"; fi\n");
+    const std::string command =
+        "cd '" + path().string() + "' && " + mpiexec +
+        "-n 2 sh rank.sh run stand.toml --quiet --threads 1 --output again --checkpoint-every 1 "
+        ">.out 2>.err";
+    CHECK(code_of(std::system(command.c_str())) != 0);
+    REQUIRE(fs::exists(path() / "again" / "checkpoint"));
+    const Outcome resumed = launch(3, "resume again --quiet --threads 1");
+    INFO(resumed.err);
+    CHECK(resumed.code == 0);
+    CHECK(files("again") == files("alone"));
+}
+
+TEST_CASE_METHOD(Launched, "all ranks end with the exit code of a mistake, told once", "[app][ranks]") {
+    if (!has_ranks()) return;
+    const Outcome unknown = launch(2, "run nothing.toml --quiet");
+    CHECK(unknown.code == 1);
+    CHECK_THAT(unknown.err, Contains("nothing.toml"));
+    const Outcome many = launch(5, "run stand.toml --quiet --output many");
+    CHECK(many.code == 1);
+    CHECK_THAT(many.err, Contains("there are 5 ranks but only 4 blocks with plants"));
+    CHECK(many.err.find("there are 5 ranks") == many.err.rfind("there are 5 ranks"));
+}
+
+TEST_CASE_METHOD(Launched, "ranks that read different files are refused", "[app][ranks]") {
+    if (!has_ranks()) return;
+    write("rank.sh",
+          "[ \"$OMPI_COMM_WORLD_RANK\" = 1 ] && more='--seed 5'\nexec '" ESPALIER_PROGRAM "' \"$@\" $more\n");
+    const std::string command = "cd '" + path().string() + "' && " + mpiexec +
+                                "-n 2 sh rank.sh run stand.toml --quiet --output odd >.out 2>.err";
+    CHECK(code_of(std::system(command.c_str())) == 1);
+    CHECK_THAT(text_of(path() / ".err"), Contains("rank 1 runs another version of the program, other files"));
+}
