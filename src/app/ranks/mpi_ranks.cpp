@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <exception>
 #include <mpi.h>
+#include <thread>
 #include <utility>
 
 namespace espalier::app {
@@ -44,9 +46,11 @@ public:
         const auto count = static_cast<std::size_t>(count_);
         std::vector<unsigned long long> sent(count), coming(count);
         for (std::size_t rank = 0; rank < count; ++rank) sent[rank] = to_each[rank].size();
-        MPI_Alltoall(sent.data(), 1, MPI_UNSIGNED_LONG_LONG, coming.data(), 1, MPI_UNSIGNED_LONG_LONG, MPI_COMM_WORLD);
+        std::vector<MPI_Request> requests(1);
+        MPI_Ialltoall(sent.data(), 1, MPI_UNSIGNED_LONG_LONG, coming.data(), 1, MPI_UNSIGNED_LONG_LONG, MPI_COMM_WORLD,
+                      requests.data());
+        wait(requests);
         std::vector<std::string> received(count);
-        std::vector<MPI_Request> requests;
         for (std::size_t rank = 0; rank < count; ++rank) {
             if (static_cast<int>(rank) == rank_) continue;
             received[rank].resize(coming[rank]);
@@ -61,12 +65,24 @@ public:
                 count_sent(1, static_cast<std::uint64_t>(size));
             });
         }
-        MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+        wait(requests);
         received[static_cast<std::size_t>(rank_)] = std::move(to_each[static_cast<std::size_t>(rank_)]);
         return received;
     }
 
 private:
+    // MPI itself would wait at full speed, on a core that another rank may need.
+    static void wait(std::vector<MPI_Request>& requests) {
+        constexpr int most_at_speed = 100;
+        constexpr std::chrono::microseconds pause(50);
+        int done = 0;
+        for (int tries = 0; !done; ++tries) {
+            if (tries > most_at_speed) std::this_thread::sleep_for(pause);
+            MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE);
+        }
+        requests.clear();
+    }
+
     template <class Piece>
     static void in_pieces(std::string& bytes, const Piece& piece) {
         for (std::size_t at = 0; at < bytes.size(); at += most_at_once) {

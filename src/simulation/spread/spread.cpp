@@ -64,6 +64,18 @@ void Spread::mark(std::span<GrowingPlant> plants) const {
     for (GrowingPlant& plant : plants) plant.is_here = rank_of_[plant.number] == ranks_.rank();
 }
 
+std::vector<std::string> Spread::notes(const Environment& environment) const {
+    std::vector<std::string> notes;
+    for (std::size_t process = 0; process < spreadings_.size(); ++process) {
+        if (spreadings_[process] == Spreading::reach) continue;
+        notes.push_back(fmt::format("process '{}' is not divided among the ranks: each of them {}",
+                                    environment.name(process),
+                                    spreadings_[process] == Spreading::plants ? "holds all plants while it answers"
+                                                                              : "answers the queries of all plants"));
+    }
+    return notes;
+}
+
 Ends Spread::agreed(const Ends& own) {
     std::ostringstream out;
     put(out, own);
@@ -208,8 +220,8 @@ std::vector<Quantity> Spread::statistics(const Environment& environment, const G
 void Spread::forget(std::span<GrowingPlant> plants) const {
     for (GrowingPlant& plant : plants) {
         if (plant.is_here || (plant.string->empty() && !plant.interpretation->asks())) continue;
-        plant.string.for_writing() = {};
-        plant.interpretation.for_writing() = {};
+        plant.string.for_writing().clear();
+        plant.interpretation.for_writing().clear();
         plant.note_received();
     }
 }
@@ -270,9 +282,13 @@ void Spread::balance(std::span<GrowingPlant> plants, double seconds, std::size_t
         }
         return loads;
     };
+    const auto heaviest = [&](const std::vector<int>& rank_of) {
+        const std::vector<double> all = loads(rank_of);
+        return *std::max_element(all.begin(), all.end());
+    };
     if (!is_lopsided(loads(rank_of_))) return;
     const std::vector<int> better = ranks_of(blocks_, weights, ranks_.count());
-    if (std::ranges::max(loads(better)) < std::ranges::max(loads(rank_of_))) move(plants, better, memory);
+    if (heaviest(better) < heaviest(rank_of_)) move(plants, better, memory);
 }
 
 void Spread::move(std::span<GrowingPlant> plants, const std::vector<int>& to, std::size_t memory) {

@@ -36,6 +36,8 @@ public:
     Ranks& ranks() { return ranks_; }
     bool is_first() const { return ranks_.rank() == 0; }
     void mark(std::span<GrowingPlant> plants) const;
+    /// What the user should know of processes that every rank carries whole: a line each.
+    std::vector<std::string> notes(const Environment& environment) const;
 
     /// Of the plants of all ranks.
     Ends agreed(const Ends& own);

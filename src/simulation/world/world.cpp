@@ -57,6 +57,11 @@ private:
     std::optional<Stopwatch> stopwatch_{std::in_place, seconds_};
 };
 
+/// What the recorders of a run read.
+struct Recorded {
+    bool anything = false, fields = false, plants = false;
+};
+
 // A plant's name as the name of a folder; names that differ stay different.
 std::string folder_of(const std::string& name) {
     std::string folder;
@@ -94,7 +99,7 @@ struct World::State {
     void begin_step();
     void end_step();
     void agree_on_ends();
-    bool is_recorded();
+    const Recorded& what_is_recorded();
     void gather_frame();
     void restore(std::istream& in);
     static void drop(GrowingPlant& plant);
@@ -125,8 +130,7 @@ struct World::State {
     FieldValues fields;                    ///< while turtles walk, and after a restart until then
     bool has_restored_fields = false;
     std::vector<Recorder*> recorders;
-    std::optional<bool> has_recorders;                ///< on the first rank; asked for once
-    bool has_field_recorders = false;                 ///< the same, of those that read fields
+    std::optional<Recorded> recorded;                 ///< by the first rank; asked for once
     std::vector<std::string> gathered;                ///< states of plants of other ranks, for a checkpoint
     std::size_t modules_of_all = 0;                   ///< on all ranks
     bool is_saved = false;                            ///< before the step, for a checkpoint: plants may move
@@ -251,8 +255,7 @@ void World::exchange() {
     const Stopwatch stopwatch(state_->times.exchange);
     if (const auto& in_time = state_->scene.environment.in_time) in_time->set(*state_->environment, state_->time());
     if (state_->spread) {
-        const bool first_sees_all = state_->is_recorded() && state_->has_field_recorders;
-        state_->spread->share(state_->plants, *state_->environment, state_->step, first_sees_all);
+        state_->spread->share(state_->plants, *state_->environment, state_->step, state_->what_is_recorded().fields);
     }
     state_->all_do([&] { state_->exchange(); });
 }
@@ -289,10 +292,10 @@ void World::State::store_answers() {
 
 void World::record() {
     state_->times.record = 0;
-    if (state_->spread ? state_->is_recorded() : !state_->recorders.empty()) {
+    if (state_->spread ? state_->what_is_recorded().anything : !state_->recorders.empty()) {
         const Stopwatch stopwatch(state_->times.record);
         const StopRequest::Scope no_request(nullptr);  // a frame is recorded whole
-        if (state_->spread) state_->gather_frame();
+        if (state_->spread && state_->recorded->plants) state_->gather_frame();
         state_->all_do([&] {
             if (state_->recorders.empty()) return;
             const Frame now = frame();
@@ -303,13 +306,17 @@ void World::record() {
 }
 
 // The first rank has the recorders.
-bool World::State::is_recorded() {
-    if (!has_recorders) {
-        const auto reads_fields = [](const Recorder* recorder) { return !recorder->fields().empty(); };
-        has_recorders = any(&spread->ranks(), !recorders.empty());
-        has_field_recorders = any(&spread->ranks(), std::any_of(recorders.begin(), recorders.end(), reads_fields));
-    }
-    return *has_recorders;
+const Recorded& World::State::what_is_recorded() {
+    if (recorded) return *recorded;
+    Ranks* const ranks = &spread->ranks();
+    const auto any_recorder = [&](const auto& is_one) {
+        return any(ranks, std::any_of(recorders.begin(), recorders.end(), is_one));
+    };
+    recorded.emplace();
+    recorded->anything = any_recorder([](const Recorder*) { return true; });
+    recorded->fields = any_recorder([](const Recorder* recorder) { return !recorder->fields().empty(); });
+    recorded->plants = any_recorder([](const Recorder* recorder) { return recorder->reads_plants(); });
+    return *recorded;
 }
 
 // Of a plant that another rank holds only its description stays.
@@ -353,6 +360,9 @@ World::State::State(const Scene& described, std::size_t bytes, const std::filesy
     if (!ranks) return;
     spread = std::make_unique<Spread>(*ranks, scene, *environment, fields_read);
     spread->mark(plants);
+    for (const std::string& note : spread->notes(*environment)) {
+        warnings.push_back({Diagnostic::Severity::warning, {}, note});
+    }
 }
 
 // Plants get what the fields leave, and fields what the plants leave.
