@@ -249,6 +249,8 @@ entry environments/intercrop.toml "Maize and lupine in one soil" "Willey 1979; d
 entry environments/intercrop-maize.toml "Two maize plants" "Willey 1979; de Wit 1958" -- --field water:slice --no-legend
 entry environments/intercrop-lupine.toml "Two lupines" "Willey 1979; de Wit 1958" -- --field water:slice --no-legend
 entry environments/hydrotropism.toml "A root turns to water" "Jaffe, Takahashi & Biro 1985" -- --field water:slice --no-legend --azimuth 0 --elevation 5
+entry environments/chemotropism.toml "A root turns to fertiliser" "Newcombe & Rhodes 1904; Leitner et al. 2010" -- --field nitrate:slice --no-legend --azimuth 0 --elevation 5
+entry environments/stones.toml "Roots between stones" "Massa & Gilroy 2003" -- --field stone.distance:iso=0 --no-legend --elevation 8
 entry environments/plough-pan.toml "Roots above a plough pan" "Bengough et al. 2011" -- --elevation 3
 entry environments/dry-spell.toml "Roots after a dry spell" "Stasovski & Peterson 1991" -- --elevation 3
 entry environments/tree-roots.toml "Roots of a tree" "Köstler, Brückner & Bibelriether 1968" -- --elevation 30
@@ -261,6 +263,8 @@ entry models/roots/maize.l "Maize roots" "Pagès, Jordan & Picard 1989"
 entry models/roots/wheat.l "Wheat roots" "Pagès, Jordan & Picard 1989"
 entry models/roots/lupine.l "Lupine roots" "Pagès, Jordan & Picard 1989"
 grown_by environments/hydrotropism.toml models/roots/hydrotropic.l "Root that turns to water" "Jaffe, Takahashi & Biro 1985"
+grown_by environments/chemotropism.toml models/roots/chemotropic.l "Root that turns to a nutrient" "Newcombe & Rhodes 1904; Leitner et al. 2010"
+grown_by environments/stones.toml models/roots/thigmotropic.l "Roots that grow along stones" "Massa & Gilroy 2003"
 grown_by environments/plough-pan.toml models/roots/impeded.l "Roots in strong and cold soil" "Bengough et al. 2011"
 grown_by environments/dry-spell.toml models/roots/mortal.l "Roots that die in dry soil" "Stasovski & Peterson 1991"
 grown_by environments/tree-roots.toml models/roots/tree.l "Roots of a tree" "Köstler, Brückner & Bibelriether 1968"

@@ -83,6 +83,9 @@ class RecordedField:
         self.voxel = voxel
         self.unit = unit
 
+    def __repr__(self):
+        return f"Field '{self.name}': {' x '.join(map(str, self.values.shape))} voxels, {self.unit or 1}"
+
     def at(self, points):
         """Values at points (n, 3) in metres, trilinear between centres of voxels, those of the rim beyond them."""
         size = numpy.array(self.values.shape)
@@ -123,6 +126,9 @@ class Run:
             self.record = json.loads((self.folder / "run.json").read_text(encoding="utf-8"))
         except (OSError, ValueError) as error:
             raise _espalier.Error(f"{self.folder}: no recorded run ({error})") from error
+
+    def __repr__(self):
+        return f"Run({str(self.folder)!r})"
 
     @property
     def _reader(self):

@@ -1,9 +1,34 @@
 """Scenes: plants and the processes that answer them."""
 
+import json
+import numbers
 import os
 import pathlib
 
+import numpy
+
 from . import _espalier
+
+
+def _toml(value):
+    """A number, a text, a list or a dict of these, as a scene file writes it."""
+    if isinstance(value, (bool, numpy.bool_)):
+        return "true" if value else "false"
+    if isinstance(value, numbers.Integral):
+        return str(int(value))
+    if isinstance(value, numbers.Real):
+        return repr(float(value))
+    if isinstance(value, (str, os.PathLike)):
+        return json.dumps(os.fspath(value), ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{json.dumps(key)} = {_toml(one)}" for key, one in value.items()) + " }"
+    if isinstance(value, (list, tuple, numpy.ndarray)):
+        return "[" + ", ".join(_toml(one) for one in value) + "]"
+    raise _espalier.Error(f"a setting is a number, a text, a list or a dict, not {type(value).__name__}")
+
+
+def _settings(values):
+    return [(key, _toml(value)) for key, value in (values or {}).items()]
 
 
 class Model(_espalier.Model):
@@ -13,6 +38,11 @@ class Model(_espalier.Model):
     def __init__(self, path=None, text=None, **defines):
         super().__init__(path, text, **defines)
         self._read_from = (None if path is None else pathlib.Path(os.path.abspath(path)), text, defines)
+
+    def __repr__(self):
+        path, text, defines = self._read_from
+        said = [f"text={text!r}" if path is None else repr(os.path.relpath(path))]
+        return f"Model({', '.join(said + [f'{name}={value}' for name, value in defines.items()])})"
 
     @property
     def text(self):
@@ -51,41 +81,67 @@ class Process:
 
 
 class process:
-    """A process of the library by its name in `espalier list processes`: process("voxel-shade", voxel=0.25)."""
+    """A process of the library by its name in `espalier list processes`: process("voxel-shade", voxel=0.25).
+
+    Keywords are its keys in a scene file; tables are dicts: initial={"head": -300}, layers=[{"top": -0.1, ...}].
+    Files are relative to the current folder.
+    """
 
     def __init__(self, kind, **settings):
         self.kind = kind
-        self.settings = {name.replace("_", "-"): value for name, value in settings.items()}
+        self.settings = settings
+
+    def __repr__(self):
+        return f"process({', '.join([repr(self.kind)] + [f'{key}={value!r}' for key, value in self.settings.items()])})"
 
 
 class Plant:
-    """A plant of a scene: a Model that grows at a place, metres."""
+    """A plant of a scene: a Model, or the file of one, that grows at a place, metres."""
 
     def __init__(self, model, at=(0, 0, 0), name=""):
-        self.model = model
+        self.model = model if isinstance(model, _espalier.Model) else Model(model)
         self.at = at
         self.name = name
 
+    def __repr__(self):
+        return f"Plant({self.model!r}, at={self.at!r}, name={self.name!r})"
+
 
 class Scene:
-    """Plants, and processes by the names that the models ask: {"light": process("voxel-shade")} or Process objects."""
+    """Plants, and processes by the names that the models ask: {"light": process("voxel-shade")} or Process objects.
 
-    def __init__(self, plants=(), processes=None, steps=None, seed=0):
-        self._made_of = {"plants": list(plants), "processes": dict(processes or {}), "steps": steps, "seed": seed}
+    plants: Plants or Models, or one of them. processes advance in their order; the name of a kind, such as "markers",
+    is the process with its defaults. steps: those of the models. dt: time that a step stands for, in time_unit.
+    """
+
+    def __init__(self, plants=(), processes=None, steps=None, seed=0, dt=1, time_unit="step"):
+        self._made_of = {
+            "plants": _plants(plants),
+            "processes": {name: _process(name, one) for name, one in (processes or {}).items()},
+            "steps": steps,
+            "seed": seed,
+            "time": (dt, time_unit),
+        }
         self._make()
 
     def _make(self):
         made_of = self._made_of
-        self._scene = _espalier.Scene(made_of.get("path"), made_of["seed"])
-        if made_of.get("steps") is not None:
-            self._scene.set_steps(made_of["steps"])
+        overrides = _settings(made_of.get("set"))
+        self._scene = _espalier.Scene(made_of.get("path"), made_of["seed"], made_of.get("steps"), overrides)
+        if "time" in made_of:
+            self._scene.set_time(*made_of["time"])
         for plant in made_of.get("plants", ()):
             self._scene.add_plant(plant.model, plant.at, plant.name)
         for name, one in made_of.get("processes", {}).items():
             if isinstance(one, Process):
                 self._scene.add_python_process(name, one)
             else:
-                self._scene.add_process(name, one.kind, one.settings)
+                self._scene.add_process(name, one.kind, _settings(one.settings))
+
+    def __repr__(self):
+        if "path" in self._made_of:
+            return f"Scene.of({str(self._made_of['path'])!r})"
+        return f"Scene(plants={self._made_of['plants']!r}, processes={self._made_of['processes']!r})"
 
     def __getstate__(self):
         path = self._made_of.get("path")
@@ -106,20 +162,44 @@ class Scene:
         return html(self)
 
     @classmethod
-    def of(cls, scene, seed=None):
-        """The scene itself, or that of a file (.toml, or a model)."""
+    def of(cls, scene, seed=None, steps=None, set=None):
+        """The scene itself, that of a Plant or a Model alone, or that of a file (.toml, or a model).
+
+        set changes values of a file, as `--set` does: {"plant.0.define.ANGLE": 40, "environment.light.voxel": 0.5}.
+        """
         if isinstance(scene, cls):
-            if seed is not None:
-                raise _espalier.Error("a Scene has its seed already: Scene(..., seed=...)")
+            if seed is not None or set:
+                raise _espalier.Error("a Scene has its seed and its settings already: Scene(..., seed=...)")
             return scene
+        if isinstance(scene, (Plant, _espalier.Model)):
+            if set:
+                raise _espalier.Error("set changes the file of a scene; a Model takes its #defines: Model(file, ANGLE=40)")
+            return cls(scene, seed=seed or 0, steps=steps)
         read = cls.__new__(cls)
-        read.__setstate__({"path": pathlib.Path(scene), "seed": seed})
+        read.__setstate__({"path": pathlib.Path(scene), "seed": seed, "steps": steps, "set": set})
         return read
 
 
-def record(scene, output, overwrite=False, seed=None, steps=None):
+def _plants(plants):
+    several = [plants] if isinstance(plants, (Plant, _espalier.Model, str, os.PathLike)) else plants
+    return [one if isinstance(one, Plant) else Plant(one) for one in several]
+
+
+def _process(name, one):
+    if isinstance(one, str):
+        return process(one)
+    if isinstance(one, (process, Process)):
+        return one
+    raise _espalier.Error(
+        f"the process '{name}' is of type {type(one).__name__}: give es.process(\"voxel-shade\", ...), or an object of your own"
+        " class of es.Process"
+    )
+
+
+def record(scene, output, overwrite=False, seed=None, steps=None, set=None):
     """Grows a scene and records it in the folder `output`, as `espalier run` does; returns the number of steps.
 
-    steps: instead of those of the scene. Ctrl-C ends it after a step. If it fails, the frames recorded so far are whole.
+    scene, seed and set as in World. steps: instead of those of the scene. Ctrl-C ends it after a step. If it fails, the
+    frames recorded so far are whole.
     """
-    return Scene.of(scene, seed)._scene.record(output, overwrite, steps)
+    return Scene.of(scene, seed, set=set)._scene.record(output, overwrite, steps)

@@ -87,6 +87,13 @@ class Frame:
         """The field of that name, such as "light"; raises Error once the world has gone on."""
         return self._frame.field(name)
 
+    def quantities(self, plant=0):
+        """What the processes tell of a plant (by its number) and of the world, as statistics.csv: {"light.mean": ...}.
+
+        Raises Error once the world has gone on.
+        """
+        return self._frame.quantities(plant)
+
     def _repr_png_(self):  # of the same scene grown anew up to this step, which gives the same plants
         from .looking import png
 
@@ -103,10 +110,14 @@ class Frame:
 
 
 class World:
-    """The world of a Scene, or of the file of a scene (.toml) or model. The same scene and seed give the same bytes."""
+    """The world of a Scene, of a Plant or a Model alone, or of the file of a scene (.toml) or model.
 
-    def __init__(self, scene, seed=None):
-        self._scene = Scene.of(scene, seed)
+    seed, and set={"plant.0.define.ANGLE": 40}, change what a file says, as `--seed` and `--set` do. The same scene and
+    seed give the same bytes.
+    """
+
+    def __init__(self, scene, seed=None, set=None):
+        self._scene = Scene.of(scene, seed, set=set)
         self._world = _espalier.World(self._scene._scene)
 
     def run(self, steps=None, progress=False):

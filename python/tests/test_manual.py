@@ -20,7 +20,7 @@ def in_a_folder_with_models(tmp_path, monkeypatch):
 
 def test_the_examples_of_the_manual_run():
     blocks = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
-    assert len(blocks) == 9
+    assert len(blocks) == 11
     names = {}
     for block in blocks:
         exec(compile(block, str(PAGE), "exec"), names)

@@ -76,3 +76,29 @@ def test_a_process_of_the_library_takes_its_settings():
     with pytest.raises(es.Error, match="voxle"):
         bad = es.Scene(plants=[es.Plant(es.Model(text=text))], processes={"light": es.process("voxel-shade", voxle=1)})
         es.World(bad)
+
+
+def test_keys_of_a_process_are_those_of_a_scene_and_dicts_are_tables():
+    text = "environment water;\nlsystem: 1\nderivation length: 1\naxiom: ?water(0,0)\nA --> A\nendlsystem\n"
+    soil = es.process(
+        "soil-water",
+        domain={"lower": [-1, -1, 0], "upper": (1, numpy.float32(1), 0)},
+        voxel=numpy.float64(0.5),
+        initial=0.1,
+        gradient_length=0.5,
+        depletion=False,
+        layers=[{"bottom": -1, "top": 0, "initial": 0.3}],
+        regions=[{"shape": "sphere", "center": [0.75, 0.75, 0], "radius": 0.1, "value": 0.2}],
+    )
+    frame = next(es.World(es.Scene(es.Model(text=text), {"water": soil})).run())
+    field = frame.field("water")
+    points = [[-0.75, -0.75, 0], [-0.75, 0.75, 0], [0.75, 0.75, 0]]
+    assert field.at(points) == pytest.approx([0.3, 0.1, 0.2])
+
+
+def test_the_name_of_a_kind_is_the_process_with_its_defaults_and_other_things_are_refused():
+    model = es.Model(text="environment light;\nlsystem: 1\nderivation length: 1\naxiom: ?light(1)\nA --> A\nendlsystem\n")
+    assert "light.mean" in next(es.World(es.Scene(model, {"light": es.process("voxel-shade", voxel=1)})).run()).quantities()
+    assert "voxel" in str(pytest.raises(es.Error, lambda: es.World(es.Scene(model, {"light": "voxel-shad"}))).value)
+    with pytest.raises(es.Error, match="'light' is of type int"):
+        es.Scene(model, {"light": 3})

@@ -2,6 +2,7 @@
 
 import gc
 import pathlib
+import pickle
 import threading
 
 import numpy
@@ -104,3 +105,70 @@ def test_a_bar_of_progress_ends_with_the_last_step(shoot, capsys):
     assert [frame.step for frame in world.run()] == [3, 4]
     assert capsys.readouterr().err == ""
     assert len(list(es.World(shoot).run(6))) == 7
+
+
+def test_a_setting_of_a_file_is_changed_as_set_does():
+    def voxels(**changes):
+        world = es.World(TREES, seed=3, set=changes)
+        next(world.run(1))
+        return world.frame.field("light").voxel[0]
+
+    assert voxels(**{"environment.light.voxel": 0.25}) == 0.25
+    assert voxels(**{"environment.light": {"process": "voxel-shade", "voxel": 1.5}}) == 1.5
+    with pytest.raises(es.Error, match="did you mean 'voxel'"):
+        voxels(**{"environment.light.voxl": 1})
+    with pytest.raises(es.Error, match="not object"):
+        voxels(**{"environment.light.voxel": object()})
+    with pytest.raises(es.Error, match="settings already"):
+        es.World(es.Scene(), set={"a": 1})
+
+
+def test_a_changed_file_is_recorded_and_pickled_as_changed(tmp_path):
+    scene = es.Scene.of(TREES, set={"plant.0.name": "oak"})
+    es.record(pickle.loads(pickle.dumps(scene)), tmp_path / "run", steps=1)
+    assert "oak" in set(es.open(tmp_path / "run").statistics["name"])
+    es.record(TREES, tmp_path / "other", steps=1, set={"plant.0.name": "elm"})
+    assert "elm" in set(es.open(tmp_path / "other").statistics["name"])
+
+
+def test_a_plant_a_model_or_its_file_is_a_scene(shoot):
+    model = es.Model(shoot)
+    for scene in (model, es.Plant(model), es.Plant(shoot), es.Scene(model), es.Scene(es.Plant(shoot)), es.Scene([model]), es.Scene(shoot)):
+        assert len(list(es.World(scene).run())[-1].internodes) == 4
+    with pytest.raises(es.Error, match="ANGLE=40"):
+        es.World(model, set={"plant.0.define.X": 1})
+
+
+def test_time_has_its_step_and_unit(shoot, tmp_path):
+    scene = es.Scene(shoot, dt=0.5, time_unit="day")
+    assert [frame.time for frame in es.World(scene).run()] == [0, 0.5, 1, 1.5, 2]
+    es.record(scene, tmp_path / "run")
+    assert es.open(tmp_path / "run").record["time_unit"] == "day"
+    with pytest.raises(es.Error, match="dt"):
+        es.Scene(shoot, dt=0)
+
+
+def test_quantities_are_those_of_the_statistics(tmp_path):
+    world = es.World(TREES, seed=3)
+    for frame in world.run(4):
+        pass
+    es.record(TREES, tmp_path / "run", seed=3, steps=4)
+    row = es.open(tmp_path / "run").statistics.query("step == 4 and plant == 1").iloc[0]
+    quantities = frame.quantities(1)
+    assert quantities["light.mean"] == pytest.approx(row["light.mean"])
+    with pytest.raises(es.Error, match="no plant 2"):
+        frame.quantities(2)
+    list(world.run(1))
+    with pytest.raises(es.Error, match="are gone"):
+        frame.quantities()
+
+
+def test_things_say_what_they_are_in_a_cell(shoot):
+    model = es.Model(text=SHOOT)
+    assert repr(model.derive(1)) == "F(1)A(0.5)" and repr(model.derive(1)[0]) == "F(1)"
+    long = es.Model(text="lsystem: 1\nderivation length: 9\naxiom: A\nA --> AA\nendlsystem\n").derive()
+    assert repr(long) == "A" * 100 + "... (512 modules)"
+    assert repr(es.Model(shoot)).startswith("Model('") and "shoot.l" in repr(es.Scene(shoot))
+    assert repr(es.process("voxel-shade", voxel=0.5)) == "process('voxel-shade', voxel=0.5)"
+    frame = next(es.World(TREES).run(1))
+    assert "voxels" in repr(frame.field("light"))

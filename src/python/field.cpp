@@ -46,6 +46,12 @@ py::array_t<double> at(const BoundField& bound, const Points& points) {
     return sampled;
 }
 
+std::string shown(const BoundField& bound) {
+    const openvdb::Coord size = bound.grid->box.dim();
+    return "Field '" + bound.field.name + "': " + std::to_string(size.x()) + " x " + std::to_string(size.y()) + " x " +
+           std::to_string(size.z()) + " voxels, " + (bound.field.unit.empty() ? "1" : bound.field.unit);
+}
+
 }  // namespace
 
 py::object field_of(const Fields& fields, const std::string& name) {
@@ -59,6 +65,7 @@ void bind_field(py::module_& module) {
             "name", [](const BoundField& bound) { return bound.field.name; }, "The name that the scene gives it.")
         .def_property_readonly(
             "unit", [](const BoundField& bound) { return bound.field.unit; }, "The unit of its values; empty: none.")
+        .def("__repr__", shown)
         .def_property_readonly("values", values, "Values of the active box, float32 (nx, ny, nz).")
         .def_property_readonly("origin", &BoundField::origin, "Lower corner of the active box, metres.")
         .def_property_readonly("voxel", &BoundField::voxel, "Size of a voxel, metres.")

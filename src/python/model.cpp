@@ -1,6 +1,7 @@
 // Models and the strings that they derive.
 #include "espalier/simulation/simulation.h"
 
+#include "base/text.h"
 #include "python/bindings.h"
 
 #include <algorithm>
@@ -148,6 +149,24 @@ std::string text_of(const BoundString& bound) {
     return to_text(*bound.string, bound.model->alphabet);
 }
 
+std::string shown(const Module& module) {
+    std::string text = module.symbol;
+    for (std::size_t k = 0; k < module.parameters.size(); ++k) {
+        text += (k == 0 ? "(" : ", ") + format_general(module.parameters[k]);
+    }
+    return module.parameters.empty() ? text : text + ")";
+}
+
+/// So much that a cell of a notebook is not flooded.
+std::string shown(const BoundString& bound) {
+    constexpr std::size_t most_letters = 400, most_modules = 100;
+    const std::size_t modules = bound.string->size();
+    std::string text = text_of(modules > most_modules ? slice_of(bound, py::slice(0, most_modules, 1)) : bound);
+    if (modules <= most_modules && text.size() <= most_letters) return text;
+    text.resize(std::min(text.size(), most_letters));
+    return text + "... (" + std::to_string(modules) + " modules)";
+}
+
 }  // namespace
 
 BoundString::BoundString(std::shared_ptr<const ModuleString> modules, std::shared_ptr<const Model> of)
@@ -172,13 +191,15 @@ void bind_model(py::module_& module) {
     py::class_<Module>(module, "Module", "One module: its symbol, its parameters and its identity for life.")
         .def_readonly("symbol", &Module::symbol, "Its letter, or several: \"F\", \"?light\".")
         .def_readonly("parameters", &Module::parameters, "Its parameters, a list of numbers.")
-        .def_readonly("identity", &Module::identity, "A number that it alone has, for life.");
+        .def_readonly("identity", &Module::identity, "A number that it alone has, for life.")
+        .def("__repr__", [](const Module& one) { return shown(one); });
 
     py::class_<BoundString>(module, "ModuleString", "A string of modules; it does not change.")
         .def("__len__", [](const BoundString& bound) { return bound.string->size(); })
         .def("__getitem__", module_at)
         .def("__getitem__", slice_of)
         .def("__str__", text_of, "The string in cpfg's notation.")
+        .def("__repr__", [](const BoundString& bound) { return shown(bound); })
         .def_property_readonly("symbols", symbols, "Symbols of the modules, a list of n texts.")
         .def_property_readonly("identity", identities, "Identities of the modules, uint64 (n,).")
         .def_property_readonly("parameters", parameters_of, "Columns by name: parameters[\"A.1\"]; dict() takes all.")

@@ -4,25 +4,26 @@
 
 #include "python/bindings.h"
 
+#include <cmath>
+
 namespace espalier::python {
 
 namespace {
 
-SettingValue value_of(const py::handle& value) {
-    if (py::isinstance<py::bool_>(value)) return value.cast<bool>();
-    if (py::isinstance<py::int_>(value)) return value.cast<std::int64_t>();
-    if (py::isinstance<py::float_>(value)) return value.cast<double>();
-    if (py::isinstance<py::str>(value)) return value.cast<std::string>();
-    return value.cast<std::vector<double>>();
-}
+/// Keys and values, these as TOML.
+using Values = std::vector<std::pair<std::string, std::string>>;
 
-BoundScene scene_at(const std::optional<std::filesystem::path>& path, const std::optional<std::uint64_t>& seed) {
+BoundScene scene_at(const std::optional<std::filesystem::path>& path, const std::optional<std::uint64_t>& seed,
+                    const std::optional<int>& steps, const Values& overrides) {
     const py::gil_scoped_release free;
     SceneOptions options;
     options.seed = seed;
+    options.steps = steps;
+    options.overrides = overrides;
     if (path) return {path->extension() == ".toml" ? read_scene(*path, options) : scene_of_model(*path, options)};
     BoundScene bound;
     bound.scene.seed = seed.value_or(0);
+    bound.scene.steps = steps;
     return bound;
 }
 
@@ -32,9 +33,15 @@ void add_plant(BoundScene& bound, Plant plant, const std::array<double, 3>& at, 
     bound.scene.plants.push_back(std::move(plant));
 }
 
-void add_process(BoundScene& bound, const std::string& name, const std::string& kind, const py::dict& values) {
+void set_time(BoundScene& bound, double dt, const std::string& unit) {
+    if (!(dt > 0 && std::isfinite(dt))) throw UserError("dt must be above 0");
+    bound.scene.dt = dt;
+    bound.scene.time_unit = unit;
+}
+
+void add_process(BoundScene& bound, const std::string& name, const std::string& kind, const Values& values) {
     Settings settings;
-    for (const auto& [key, value] : values) settings.put(key.cast<std::string>(), value_of(value));
+    for (const auto& [key, value] : values) settings.set(key, value);
     bound.scene.environment.add(name, kind, settings);
 }
 
@@ -70,8 +77,9 @@ int record(const BoundScene& bound, const std::filesystem::path& output, bool ov
 
 void bind_scene(py::module_& module) {
     py::class_<BoundScene>(module, "Scene")
-        .def(py::init(&scene_at), py::arg("path") = py::none(), py::arg("seed") = py::none())
-        .def("set_steps", [](BoundScene& bound, int steps) { bound.scene.steps = steps; })
+        .def(py::init(&scene_at), py::arg("path") = py::none(), py::arg("seed") = py::none(),
+             py::arg("steps") = py::none(), py::arg("overrides") = Values{})
+        .def("set_time", set_time)
         .def("add_plant", add_plant)
         .def("add_process", add_process)
         .def("add_python_process", add_python_process)

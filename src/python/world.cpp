@@ -97,6 +97,22 @@ py::object field_in(const BoundFrame& frame, const std::string& name) {
     return field_of(frame.bound->world.environment().fields(), name);
 }
 
+py::dict quantities_in(const BoundFrame& frame, std::uint32_t plant) {
+    const Turn turn(*frame.bound);
+    if (frame.bound->world.steps_done() != frame.step) {
+        throw UserError("the quantities of step " + std::to_string(frame.step) + " are gone: ask before the next step");
+    }
+    if (plant >= frame.plants.size()) {
+        throw UserError("there is no plant " + std::to_string(plant) + ": they count from 0 to " +
+                        std::to_string(frame.plants.size() - 1));
+    }
+    py::dict values;
+    for (const Quantity& one : frame.bound->world.environment().statistics(plant)) {
+        values[py::str(one.name)] = one.value;
+    }
+    return values;
+}
+
 std::shared_ptr<BoundWorld> world_of(const BoundScene& scene) {
     const py::gil_scoped_release free;
     return std::make_shared<BoundWorld>(scene.scene);
@@ -150,7 +166,9 @@ void bind_frame(py::module_& module) {
         .def_readonly("step", &BoundFrame::step)
         .def_readonly("time", &BoundFrame::time, "In the scene's unit.")
         .def_readonly("plants", &BoundFrame::plants)
-        .def("field", field_in, py::arg("name"), "A field by name, until the world's next step.");
+        .def("field", field_in, py::arg("name"), "A field by name, until the world's next step.")
+        .def("quantities", quantities_in, py::arg("plant") = 0,
+             "What the processes tell of a plant and of the world, by name, until the world's next step.");
 }
 
 }  // namespace

@@ -2,3 +2,4 @@
 import "./studio.test.mjs";
 import "./editors.test.mjs";
 import "./page.test.mjs";
+import "./share.test.mjs";

@@ -44,6 +44,8 @@ TEST_CASE_METHOD(Recorded, "A shared page has all frames of a run, and nothing i
     const Json recording = recording_in("run/share.html");
     CHECK(recording["steps"] == Json{0, 1, 2, 3, 4, 5, 6});
     CHECK(recording["packets"].size() == 7);
+    CHECK(recording["moments"].size() == 7);
+    CHECK(recording["organs"].get<std::string>().size() > 100);
     CHECK(count(page, "</script>") == 2);
     CHECK_THAT(page, Contains("default-src 'none'") && !Contains("<link") && !Contains("<script src"));
 }

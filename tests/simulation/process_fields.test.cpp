@@ -1,4 +1,5 @@
 // Plants whose turtles read what the processes of their world published.
+#include "espalier/geometry/openvdb_grid.h"
 #include "espalier/simulation/world.h"
 
 #include "catch.h"
@@ -6,6 +7,7 @@
 #include "temporary_folder.h"
 
 #include <glm/geometric.hpp>
+#include <openvdb/io/File.h>
 
 using namespace espalier;
 using Catch::Matchers::Contains;
@@ -133,4 +135,32 @@ TEST_CASE_METHOD(Lit, "a field that no process has is told before the first step
     CHECK_THAT(refusal("lights"),
                Contains("model seeker.pgraph reads the field 'light', which no process of the scene has (did you mean "
                         "'lights'?); there are: lights, lights.shade"));
+}
+
+TEST_CASE_METHOD(Lit, "a stem follows maps that change in time, and goes on from a checkpoint as it went through",
+                 "[simulation]") {
+    initialize_openvdb();
+    for (const int map : {0, 1}) {
+        const auto grid = openvdb::FloatGrid::create();
+        grid->setTransform(openvdb::math::Transform::createLinearTransform(0.5));
+        const openvdb::CoordBBox box(openvdb::Coord(-8), openvdb::Coord(8));
+        for (auto at = box.beginZYX(); at; ++at) {
+            grid->tree().setValue(*at, float((map == 0 ? 1 : -1) * grid->indexToWorld(*at).x()));
+        }
+        openvdb::io::File file((folder() / ("map" + std::to_string(map) + ".vdb")).string());
+        file.write({grid});
+        file.close();
+    }
+    const Scene changing = read_scene_text(
+        "[simulation]\nsteps = 6\n[[plant]]\nmodel = 'seeker.pgraph'\n"
+        "[environment.light]\nprocess = 'vdb'\nmaps = [{ time = 0, file = "
+        "'map0.vdb' }, { time = 6, file = 'map1.vdb' }]\n",
+        "scene.toml", folder());
+    simulation_test::ResumedWorld both(changing, 2);
+    CHECK(tip(both.through).x > 0.3);
+    for (int step = 2; step < 6; ++step) {
+        both.step();
+        CHECK(tip(both.through) == tip(both.resumed));
+    }
+    CHECK(tip(both.through).x < -0.1);  // the light of step 5 fell from the other side
 }

@@ -31,8 +31,8 @@ public:
         app().add_flag("--dark", page_.is_dark, "use a dark background");
         add_json_flag("print what was written as JSON");
         app().footer(
-            R"(The page needs neither Espalier nor a network. It shows axes, leaves and organs in their colours; without textures and bark,
-which `share` in the studio takes along.
+            R"(The page needs neither Espalier nor a network. It shows axes, leaves and organs in their colours, and a click on one
+shows its symbol, identity and recorded parameters; without textures and bark, which `share` in the studio takes along.
 Examples:
   espalier share output/two-trees
   espalier share output/two-trees --frames 20 --output trees.html)");

@@ -4,31 +4,16 @@
 #include "base/csv_rows.h"
 #include "base/text.h"
 #include "environment/exchange/answer_statistics.h"
+#include "environment/rising.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
 
 namespace espalier::environment {
 namespace {
-
-/// Where a number lies among rising ones: behind `index`, by a share of the way to the next. Outside, at the end.
-struct Between {
-    std::size_t index;
-    double share;
-    bool is_outside;
-};
-
-Between find_between(const std::vector<double>& rising, double value) {
-    const auto after = std::upper_bound(rising.begin(), rising.end(), value);
-    if (after == rising.begin()) return {0, 0, value < rising.front()};
-    const auto index = static_cast<std::size_t>(after - rising.begin()) - 1;
-    if (after == rising.end()) return {index, 0, value > rising.back()};
-    return {index, (value - rising[index]) / (*after - rising[index]), false};
-}
 
 double mixed(double a, double b, double share) {
     return share > 0 ? a + share * (b - a) : a;
@@ -47,13 +32,7 @@ public:
 
     /// The values at all heights at a time; a table of one line holds for ever.
     std::vector<double> at(double time) const {
-        const double slack = 1e-9 * (1 + std::abs(time));
-        const bool is_covered = times_.front() - slack <= time && time <= times_.back() + slack;
-        if (times_.size() > 1 && !is_covered) {
-            throw RunError(fmt::format("{} goes from time {} to {}, but the run is at {}: give it more lines", path_,
-                                       format_general(times_.front()), format_general(times_.back()),
-                                       format_general(time)));
-        }
+        require_covered(times_, time, path_, "lines");
         const Between place = find_between(times_, time);
         std::vector<double> line = lines_[place.index];
         if (place.share > 0) {

@@ -11,7 +11,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -21,6 +20,11 @@ namespace {
 
 constexpr double far = std::numeric_limits<double>::infinity();
 constexpr int most_periods = 100'000;
+
+/// By the compiler's own function: libc++ has std::atomic_ref from version 19 on alone.
+void add_atomically(std::uint64_t& sum, std::uint64_t amount) {
+    __atomic_fetch_add(&sum, amount, __ATOMIC_RELAXED);
+}
 
 /// A direction of Lambert's law about a normal.
 glm::dvec3 lambertian(const glm::dvec3& normal, double u, double v) {
@@ -235,7 +239,7 @@ void LightPaths::note_meeting(const Path& path, const LitTriangles::Owner& owner
     add(on_back && owner.kind == LitKind::leaf ? back_ : front_, owner.slot, path);
     if (!path.is_first) return;
     const auto add_units = [](std::uint64_t& sum, double weight) {
-        std::atomic_ref(sum).fetch_add(static_cast<std::uint64_t>(units(weight)), std::memory_order_relaxed);
+        add_atomically(sum, static_cast<std::uint64_t>(units(weight)));
     };
     if (path.from_sun) add_units(sun_[owner.slot], path.weights[0]);
     for (int k = 0; k < 3; ++k) {
@@ -308,8 +312,7 @@ std::int64_t LightPaths::units(double weight) {
 
 void LightPaths::add(Sums& sums, std::size_t slot, const Path& path) const {
     for (std::size_t b = 0; b < bands(); ++b) {
-        const auto amount = static_cast<std::uint64_t>(units(path.weights[b]));
-        std::atomic_ref(sums[slot * bands() + b]).fetch_add(amount, std::memory_order_relaxed);
+        add_atomically(sums[slot * bands() + b], static_cast<std::uint64_t>(units(path.weights[b])));
     }
 }
 

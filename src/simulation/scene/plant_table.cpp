@@ -13,6 +13,7 @@
 
 #include <limits>
 #include <set>
+#include <tuple>
 
 namespace espalier::simulation {
 namespace {
@@ -115,7 +116,11 @@ struct ModelKey {
     Defines defines;
     Arithmetic arithmetic;
     const View* view;
-    auto operator<=>(const ModelKey&) const = default;
+    // Not by <=>, which the maps of libc++ 14 do not have.
+    bool operator<(const ModelKey& other) const {
+        return std::tie(path, defines, arithmetic, view) <
+               std::tie(other.path, other.defines, other.arithmetic, other.view);
+    }
 };
 
 Pose read_pose(const Settings& table) {

@@ -33,6 +33,9 @@ public:
     const std::string& symbol_name(std::uint16_t symbol) const { return geometry_.symbol_names.at(symbol); }
     /// The recorded parameters that the module has, by their names.
     std::vector<std::pair<std::string, double>> parameters(const RecordedModule& module) const;
+    /// All recorded parameters, by point; NaN where a module has none.
+    const std::map<std::string, Column<double>>& parameter_columns() const { return geometry_.parameters; }
+    const std::map<std::string, std::string>& units() const { return geometry_.units; }
     /// "age", "plant", "symbol", "order", then the recorded parameters.
     std::vector<std::string> columns() const;
     /// The messages of docs/developer/studio-protocol.md. Throws UserError if there is no such column.

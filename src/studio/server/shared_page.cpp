@@ -5,6 +5,7 @@
 #include "base/base64.h"
 #include "studio/growth/recorded_frame.h"
 #include "studio/server/page_files.h"
+#include "studio/server/shared_organs.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -40,6 +41,10 @@ std::string deflated(const std::string& bytes) {
     return out;
 }
 
+std::string packed(const Json& json) {
+    return base64(deflated(json.dump(-1, ' ', false, Json::error_handler_t::replace)));
+}
+
 /// What the viewer does when it fits a plant that it sees from the side, in a window that is no higher than wide.
 Json camera_for(const FrameGeometry& geometry) {
     glm::vec3 lower(0), upper(0, 1, 0);
@@ -58,10 +63,13 @@ Json camera_for(const FrameGeometry& geometry) {
 }
 
 Json recording_of(const RecordedRun& run, const std::vector<const RecordedFrame*>& frames, const SharedPage& page) {
-    Json steps = Json::array(), packets = Json::array();
+    Json steps = Json::array(), packets = Json::array(), moments = Json::array();
+    SharedOrgans organs(run);
     for (const RecordedFrame* const frame : frames) {
+        const DrawnFrame drawn(run, *frame);
         steps.push_back(frame->step);
-        packets.push_back(base64(deflated(DrawnFrame(run, *frame).packet(1, frame->step))));
+        packets.push_back(base64(deflated(drawn.packet(1, frame->step))));
+        moments.push_back(packed(organs.add(drawn)));
     }
     const Json none = Json::array();
     return {{"title", page.title},
@@ -72,6 +80,8 @@ Json recording_of(const RecordedRun& run, const std::vector<const RecordedFrame*
             {"images", none},
             {"reliefs", none},
             {"limbs", none},
+            {"organs", packed(organs.table())},
+            {"moments", moments},
             {"camera", camera_for(run.geometry(*frames.back()))},
             {"light", {{"towardsEye", nullptr}, {"towardsLight", nullptr}, {"background", nullptr}}}};
 }

@@ -12,7 +12,6 @@
 #include <cctype>
 #include <cmath>
 #include <exception>
-#include <iterator>
 #include <sstream>
 #include <string_view>
 
@@ -137,8 +136,8 @@ void Timeline::make_recorders(Settings& table) {
     std::vector<std::string> organs;
     for (const auto& recorder : recorders_) {
         sees_every_step_ = sees_every_step_ || recorder->sees_every_step();
-        std::ranges::copy(recorder->fields(), std::back_inserter(fields_));
-        std::ranges::copy(recorder->organs(), std::back_inserter(organs));
+        for (const std::string& name : recorder->fields()) fields_.push_back(name);
+        for (const std::string& name : recorder->organs()) organs.push_back(name);
     }
     const auto write = [this](const Frame& frame, bool due) {
         for (const auto& recorder : recorders_) {

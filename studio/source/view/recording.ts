@@ -4,6 +4,7 @@ import type { CameraState } from "./camera.js";
 import { themes, type Theme } from "./colours.js";
 import { decompress, fromBase64 } from "./compression.js";
 import { readMessage, type Limbs, type Packet } from "./packets.js";
+import { OrganCard, type OrganMoment, type OrganTable } from "./organ-card.js";
 import { PlantScene, type AuthorLook } from "./scene3d.js";
 import { steer } from "./steer.js";
 
@@ -19,6 +20,9 @@ export interface Recording {
   reliefs: string[];
   /** Limbs with bark or skin, of the steps that showed them. */
   limbs: string[];
+  /** All organs and, for each step, what is known of its modules; compressed JSON in base64. Missing: nothing is known. */
+  organs?: string;
+  moments?: string[];
   camera: CameraState;
   light: AuthorLook;
 }
@@ -26,6 +30,10 @@ export interface Recording {
 async function unpack(text: string): Promise<ArrayBuffer> {
   const bytes = await decompress(fromBase64(text));
   return bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength) as ArrayBuffer;
+}
+
+async function unpackJson<Value>(text: string): Promise<Value> {
+  return JSON.parse(new TextDecoder().decode(await unpack(text))) as Value;
 }
 
 function blobOf(text: string): Promise<Blob> | null {
@@ -39,16 +47,21 @@ class Player {
   private readonly label = document.createElement("output");
   private readonly packets = new Map<number, Promise<Packet>>();
   private readonly limbs = new Map<number, Limbs>();
+  private readonly card = new OrganCard(() => this.forget());
+  private organs: Promise<OrganTable> | null = null;
+  /** Number of the organ that was clicked at. */
+  private picked: number | null = null;
   private at = 0;
   private playing = false;
 
   constructor(private readonly recording: Recording) {
     const canvas = document.createElement("canvas");
     canvas.setAttribute("aria-label", "The plant. Arrows turn, + and - zoom, F fits.");
-    document.body.append(canvas, this.bar());
+    document.body.append(canvas, this.card.element, this.bar());
     this.scene = new PlantScene(canvas);
     this.scene.theme = themes[recording.theme];
-    steer(this.scene);
+    steer(this.scene, { clicked: (x, y) => void this.pick(this.scene.pick(x, y)) });
+    canvas.addEventListener("keydown", (event) => event.key === "Escape" && this.forget());
     const resize = () => this.scene.resize(canvas.clientWidth, canvas.clientHeight);
     new ResizeObserver(resize).observe(canvas);
     resize();
@@ -111,6 +124,44 @@ class Player {
     this.slider.value = String(index);
     this.label.textContent = `step ${packet.step}`;
     document.body.dataset.step = String(packet.step);
+    await this.showCard();
+  }
+
+  private async moment(): Promise<OrganMoment | null> {
+    const text = this.recording.moments?.[this.at];
+    if (!text) return null;
+    const moment = await unpackJson<OrganMoment>(text);
+    let sum = 0;
+    moment.organ = moment.organ.map((step) => (sum += step));
+    return moment;
+  }
+
+  private async pick(module: number | null): Promise<void> {
+    const organ = module === null ? undefined : (await this.moment())?.organ[module];
+    if (organ === undefined) {
+      this.forget();
+      return;
+    }
+    this.picked = organ;
+    await this.showCard();
+  }
+
+  private forget(): void {
+    this.picked = null;
+    this.card.hide();
+    this.scene.mark(null);
+  }
+
+  /** What the step at hand says of the picked organ: the same one, while there is one. */
+  private async showCard(): Promise<void> {
+    const { picked, at: index } = this;
+    if (picked === null || !this.recording.organs) return;
+    this.organs ??= unpackJson<OrganTable>(this.recording.organs);
+    const [table, moment] = await Promise.all([this.organs, this.moment()]);
+    if (this.picked !== picked || this.at !== index) return;
+    const module = moment?.organ.indexOf(picked) ?? -1;
+    this.card.show(table, picked, module < 0 ? null : moment, module);
+    this.scene.mark(module < 0 ? null : module);
   }
 
   private toggle(): void {

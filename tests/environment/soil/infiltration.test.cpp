@@ -117,6 +117,30 @@ TEST_CASE("sand takes all of the rain, clay ponds: both fronts have their speed"
     CHECK(speed_of_front(test_clay, 0.02, 0.4, 0.5) == Approx(slow).epsilon(0.06));
 }
 
+TEST_CASE("fronts into other textures of the library have their speed, whatever the voxels", "[environment][soil]") {
+    struct Texture {
+        const char* name;
+        SoilKind kind;
+        double first, second;
+    };
+    using enum SoilKind::Model;
+    const Texture textures[] = {{"sandy loam", {van_genuchten, 0.065, 0.41, 0.075, 1.89, 106.1, 0.5}, 0.1, 0.4},
+                                {"sandy clay loam", {van_genuchten, 0.1, 0.39, 0.059, 1.48, 31.44, 0.5}, 0.3, 0.8},
+                                {"silt loam", {van_genuchten, 0.067, 0.45, 0.02, 1.41, 10.8, 0.5}, 0.8, 1.6}};
+    for (const Texture& texture : textures) {
+        const SoilHydraulics soil(texture.kind);
+        const double flux = std::min(100.0, texture.kind.conductivity);
+        const double wet = flux < 100 ? texture.kind.saturated : soil.at(soil.head_of_conductivity(flux)).content;
+        const double speed = (flux - soil.at(-400).conductivity) / (wet - soil.at(-400).content);
+        for (const double voxel : {0.015, 0.04}) {
+            const double measured =
+                speed_of_front(fmt::format("\"{}\"", texture.name), voxel, texture.first, texture.second);
+            INFO(texture.name << ", voxels of " << voxel << " m: " << measured << " cm/d, expected " << speed);
+            CHECK(measured == Approx(speed).epsilon(0.005));
+        }
+    }
+}
+
 TEST_CASE("the front in loam is as wide as its travelling wave", "[environment][soil]") {
     const SoilHydraulics loam({SoilKind::Model::van_genuchten, 0.08, 0.43, 0.04, 1.6, 50, 0.5});
     const SoilPoint dry = loam.at(-400);

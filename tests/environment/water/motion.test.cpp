@@ -3,8 +3,10 @@
 #include "environment/water/soil.h"
 
 #include <fmt/format.h>
+#include <glm/vector_relational.hpp>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -297,6 +299,109 @@ sources = [{ shape = "sphere", center = [0.5, 0.5, 0], radius = 0.1, hold = 1 }]
     const double early = relaxed("sweeps = 1000\ntolerance = 0.01").second;
     CHECK(early > 0.5);
     CHECK(early < 0.99);
+}
+
+/// A plain grid after the rule of cpfg's program `soil`: voxels of any contents, stones, and one that is held.
+struct PlainSoil {
+    static constexpr int nx = 6, ny = 5, nz = 4;
+    static constexpr glm::ivec3 held{0, 2, 1};
+    std::vector<double> contents;
+    std::vector<bool> stone;
+
+    explicit PlainSoil(unsigned seed) {
+        std::mt19937 chance(seed);
+        for (int i = 0; i < nx * ny * nz; ++i) {
+            contents.push_back(double(chance() % 1000) / 1000);
+            stone.push_back(chance() % 7 == 0);
+        }
+        stone[index(held)] = false;
+        contents[index(held)] = 1;
+    }
+
+    static std::size_t index(const glm::ivec3& v) { return std::size_t(v.x + nx * (v.y + ny * v.z)); }
+
+    std::string toml() const {
+        std::string regions, stones;
+        for (int z = 0; z < nz; ++z) {
+            for (int y = 0; y < ny; ++y) {
+                for (int x = 0; x < nx; ++x) {
+                    const std::size_t i = index({x, y, z});
+                    const std::string ball = fmt::format("{{ shape = 'sphere', center = [{}, {}, {}], radius = 0.1",
+                                                         x + 0.5, y + 0.5, z + 0.5);
+                    if (stone[i]) stones += ball + " }, ";
+                    if (!stone[i]) regions += ball + fmt::format(", value = {} }}, ", contents[i]);
+                }
+            }
+        }
+        return fmt::format(
+            "domain = {{ lower = [0, 0, 0], upper = [{}, {}, {}] }}\nvoxel = 1\nregions = [{}]\n"
+            "obstacles = [{}]\nmode = 'relaxation'\nsources = [{{ shape = 'sphere', center = [{}, {}, "
+            "{}], radius = 0.1, hold = 1 }}]\n",
+            nx, ny, nz, regions, stones, held.x + 0.5, held.y + 0.5, held.z + 0.5);
+    }
+
+    /// One sweep; returns the largest change.
+    double sweep(double weight) {
+        const std::vector<double> old = contents;
+        double largest = 0;
+        for (int i = 0; i < nx * ny * nz; ++i) {
+            const glm::ivec3 v(i % nx, i / nx % ny, i / (nx * ny));
+            double sum = 0;
+            int free = 0;
+            for (const glm::ivec3& side : {glm::ivec3(1, 0, 0), glm::ivec3(0, 1, 0), glm::ivec3(0, 0, 1)}) {
+                for (const glm::ivec3& other : {v + side, v - side}) {
+                    const bool within = glm::all(glm::greaterThanEqual(other, glm::ivec3(0))) &&
+                                        glm::all(glm::lessThan(other, glm::ivec3(nx, ny, nz)));
+                    if (!within || stone[index(other)]) continue;
+                    sum += old[index(other)];
+                    ++free;
+                }
+            }
+            if (stone[std::size_t(i)] || free == 0 || v == held) continue;
+            contents[std::size_t(i)] = (1 - weight) * old[std::size_t(i)] + weight * sum / free;
+            largest = std::max(largest, std::abs(contents[std::size_t(i)] - old[std::size_t(i)]));
+        }
+        return largest;
+    }
+};
+
+TEST_CASE("relaxation has the numbers of the documented rule: any contents, stones and a source",
+          "[environment][water]") {
+    const unsigned seed = GENERATE(11u, 12u, 13u);
+    const double weight = GENERATE(0.5, 0.37);
+    PlainSoil plain(seed);
+    Stock soil(plain.toml() + fmt::format("sweeps = 3\nrelaxation = {}\n", weight));
+    for (int step = 0; step < 4; ++step) {
+        soil.stock.relax(1);
+        for (int sweep = 0; sweep < 3; ++sweep) plain.sweep(weight);
+        double worst = 0;
+        for (int i = 0; i < PlainSoil::nx * PlainSoil::ny * PlainSoil::nz; ++i) {
+            const glm::ivec3 v(i % PlainSoil::nx, i / PlainSoil::nx % PlainSoil::ny,
+                               i / (PlainSoil::nx * PlainSoil::ny));
+            if (plain.stone[std::size_t(i)]) continue;
+            worst = std::max(worst, std::abs(soil.at(v.x, v.y, v.z) - plain.contents[std::size_t(i)]));
+        }
+        INFO("seed " << seed << ", weight " << weight << ", step " << step);
+        CHECK(worst < 1e-14);
+    }
+}
+
+TEST_CASE("the direction of roots has the numbers of the documented rule", "[environment][water]") {
+    // Weights g and h: g down + h (difference of the two neighbours) / (2 range), as cpfg's `soil` answers.
+    PlainSoil plain(21);
+    std::fill(plain.stone.begin(), plain.stone.end(), false);
+    Soil soil(plain.toml() + "range = 0.8\ndepletion = false\n");
+    const double g = 0.3, h = 0.7;
+    for (const glm::ivec3& v : {glm::ivec3(2, 2, 1), glm::ivec3(4, 3, 2), glm::ivec3(1, 1, 2)}) {
+        const auto answer = soil.ask({{glm::dvec3(v) + 0.5, {0.05, g, h, 0}}})[0];
+        CHECK(answer[0] == Approx(std::min(0.05, plain.contents[PlainSoil::index(v)])));
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::ivec3 side(0);
+            side[axis] = 1;
+            const double rise = plain.contents[PlainSoil::index(v + side)] - plain.contents[PlainSoil::index(v - side)];
+            CHECK(answer[std::size_t(axis + 1)] == Approx(h * rise / (2 * 0.8) - (axis == 1 ? g : 0)).margin(1e-6));
+        }
+    }
 }
 
 TEST_CASE("sources add their rate to each of their voxels, or hold their content", "[environment][water]") {

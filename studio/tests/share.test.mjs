@@ -1,0 +1,86 @@
+// A recorded run as a page of its own: node tests/share.test.mjs PROGRAM
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readFileSync, writeFileSync } from "node:fs";
+import { join, resolve } from "node:path";
+import { after, before, test } from "node:test";
+import { openBrowser, openPage, rests, shot } from "./browser.mjs";
+import { workFolder } from "./program.mjs";
+
+const program = resolve(process.argv[2] ?? "build/release/espalier");
+const { base, folder } = workFolder();
+let browser;
+
+const call = (...args) => execFileSync(program, args, { cwd: folder, stdio: "pipe" });
+
+before(async () => {
+  writeFileSync(
+    join(folder, "scene.toml"),
+    '[[plant]]\nmodel = "tree.l"\nname = "oak"\n[timeline]\nparameters = { length = "Internode.2" }\n',
+  );
+  call("run", "scene.toml", "--output", "run", "--quiet");
+  call("share", "run", "--output", "shared.html");
+  browser = await openBrowser();
+});
+
+after(async () => browser?.close());
+
+test("a click on a shared page tells what the organ is, step by step", async () => {
+  const page = await openPage(browser, `file://${join(folder, "shared.html")}`, { offline: true });
+  const card = page.locator(".organ-card");
+  const fact = (name) => card.locator(`dt:text-is("${name}") + dd`).textContent();
+  const goTo = async (step) => {
+    await page.locator("input[type=range]").fill(String(step));
+    await page.waitForFunction((wanted) => document.body.dataset.step === wanted, String(step));
+    await rests(page);
+  };
+  await page.waitForFunction(() => document.body.dataset.step === "8");
+  await rests(page);
+  const plain = await page.locator("canvas").screenshot();
+  const box = await page.locator("canvas").boundingBox();
+  // The trunk stands in the middle, near the ground.
+  for (let part = 0.95; part > 0.5 && !(await card.isVisible()); part -= 0.02) {
+    await page.mouse.click(box.x + box.width / 2, box.y + box.height * part);
+    await page.waitForTimeout(100);
+  }
+  assert.match(await card.locator("code").textContent(), /^Internode$/);
+  assert.equal(await fact("Plant"), "oak");
+  assert.match(await fact("Identity"), /^[0-9a-f]{16}$/);
+  await rests(page);
+  await shot(page, "shared-organ");
+  assert.notDeepEqual(await page.locator("canvas").screenshot(), plain);
+
+  // Internodes grow by 2 % in a step.
+  const born = Number(await fact("Born in step"));
+  const identity = await fact("Identity");
+  const last = Number(await fact("length"));
+  await goTo(7);
+  assert.equal(await fact("Identity"), identity);
+  assert.ok(Math.abs(Number(await fact("length")) * 1.02 - last) < 1e-4 * last);
+  await goTo(born - 1);
+  assert.match(await card.textContent(), /does not show the organ/);
+  await goTo(8);
+  assert.equal(Number(await fact("length")), last);
+
+  await page.mouse.click(box.x + 5, box.y + 5);
+  await card.waitFor({ state: "hidden" });
+  await rests(page);
+  assert.deepEqual(await page.locator("canvas").screenshot(), plain);
+  assert.deepEqual(page.problems, []);
+  await page.context().close();
+});
+
+test("a page that was shared without organs shows the plant, and clicks find nothing", async () => {
+  const whole = readFileSync(join(folder, "shared.html"), "utf8");
+  const bare = whole.replace(/"organs":"[^"]*","moments":\[[^\]]*\],/, "");
+  assert.notEqual(bare, whole);
+  writeFileSync(join(base, "bare.html"), bare);
+  const page = await openPage(browser, `file://${join(base, "bare.html")}`, { offline: true });
+  await page.waitForFunction(() => document.body.dataset.step === "8");
+  const box = await page.locator("canvas").boundingBox();
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height * 0.85);
+  await rests(page);
+  assert.equal(await page.locator(".organ-card").isVisible(), false);
+  assert.deepEqual(page.problems, []);
+  await page.context().close();
+});
