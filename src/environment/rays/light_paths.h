@@ -48,11 +48,11 @@ public:
     /// Light of the sun that nothing has scattered, in PAR, and the mean direction to all light that nothing has.
     double sun(std::size_t slot) const { return share(sun_[slot]); }
     glm::dvec3 towards(std::size_t slot) const;
-    double absorbed_by_soil(std::size_t band) const { return share(by_soil_[band]); }
-    double absorbed_by_solids(std::size_t band) const { return share(by_solids_[band]); }
-    double escaped(std::size_t band) const { return share(escaped_[band]); }
+    double absorbed_by_soil(std::size_t band) const { return share(ends_.soil[band]); }
+    double absorbed_by_solids(std::size_t band) const { return share(ends_.solids[band]); }
+    double escaped(std::size_t band) const { return share(ends_.escaped[band]); }
     /// All that the paths have brought in a band; 1 but for lamps.
-    double brought(std::size_t band) const { return share(brought_[band]); }
+    double brought(std::size_t band) const { return share(ends_.brought[band]); }
     /// What passes a cell of a sensor from its front.
     double passed(std::size_t sensor, std::size_t cell, std::size_t band) const {
         return share(through_sensors_[(first_cells_[sensor] + cell) * bands() + band]);
@@ -73,7 +73,15 @@ private:
         enum class Kind : std::uint8_t { triangle, soil, sky } kind = Kind::sky;
         RayScene::Hit hit{};
     };
-    using Sums = std::vector<std::uint64_t>;  ///< in units of 2^-32 paths, so that their order does not matter
+    // In units of 2^-32 paths, so that their order does not matter.
+    using Sums = std::vector<std::uint64_t>;
+    using OfBands = std::array<std::uint64_t, most_bands>;
+    /// Where light begins and ends but for organs. Nearly every path adds to it, so each thread has its own.
+    struct Ends {
+        OfBands brought{}, soil{}, solids{}, escaped{};
+
+        void add(const Ends& other);
+    };
 
     static std::int64_t units(double weight);
     double share(std::uint64_t sum) const {
@@ -85,18 +93,22 @@ private:
                      std::span<const double> factors, const glm::dvec3& size);
     Path first_of(const std::array<double, 4>& sample) const;
     Path from_beam(const LightBeam& beam, const std::array<double, 4>& sample) const;
-    void follow(std::uint32_t number, std::uint32_t seed);
+    void follow(std::uint32_t number, std::uint32_t seed, Ends& ends);
     template <class Pass>
     Met advance_with(Path& path, const Pass& pass) const;
     double to_side(const Path& path) const;
     void enter_opposite(Path& path) const;
     void count_at_sensors(const Path& path, double to);
-    bool scatter(Path& path, const RayScene::Hit& hit, const std::array<double, 4>& sample);
-    bool scatter_from_soil(Path& path, const std::array<double, 4>& sample);
+    template <class Sample>
+    bool scatter(Path& path, const RayScene::Hit& hit, const Sample& sample, Ends& ends);
+    template <class Sample>
+    bool scatter_from_soil(Path& path, const Sample& sample, Ends& ends);
+    void absorb(const LitTriangles::Owner& owner, const Path& path, Ends& ends);
     void note_meeting(const Path& path, const LitTriangles::Owner& owner, bool on_back);
     SideOptics optics_of(const LitTriangles::Owner& owner, bool on_back, std::size_t band) const;
-    bool ends(const Path& path) const;
+    bool is_spent(const Path& path) const;
     void add(Sums& sums, std::size_t slot, const Path& path) const;
+    void add(OfBands& sums, const Path& path) const;
 
     const Optics& optics_;
     std::vector<LightSensor> sensors_;
@@ -113,7 +125,8 @@ private:
     glm::dvec3 centre_{0, 0, 0};
     double radius_ = 0, near_ = 0, top_ = 0;
     std::uint32_t paths_ = 1;
-    Sums absorbed_, front_, back_, sun_, towards_, by_soil_, by_solids_, escaped_, brought_, through_sensors_;
+    Sums absorbed_, front_, back_, sun_, towards_, through_sensors_;
+    Ends ends_;
 };
 
 }  // namespace espalier::environment
