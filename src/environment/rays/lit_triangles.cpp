@@ -6,7 +6,19 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+
 namespace espalier::environment {
+namespace {
+
+/// Below it, the parts' own trees of boxes cost less than to build one of all triangles in each step.
+constexpr double most_crowded = 2;
+
+double surface(const glm::dvec3& size) {
+    return 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
+}
+
+}  // namespace
 
 void LitTriangles::clear() {
     corners_.clear();
@@ -49,6 +61,18 @@ void LitTriangles::add(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec
 }
 
 std::vector<RayScene::Part> LitTriangles::parts(const std::optional<Box>& period) const {
+    std::vector<RayScene::Part> parts = separate_parts(period);
+    if (crowding(parts, period) <= most_crowded) return parts;
+    RayScene::Part all{corners_, {}};
+    for (const RayScene::Part& part : parts) {
+        for (const glm::vec3& shift : part.shifts) {
+            if (std::find(all.shifts.begin(), all.shifts.end(), shift) == all.shifts.end()) all.shifts.push_back(shift);
+        }
+    }
+    return {std::move(all)};
+}
+
+std::vector<RayScene::Part> LitTriangles::separate_parts(const std::optional<Box>& period) const {
     std::vector<RayScene::Part> parts;
     for (std::size_t k = 0; k < parts_.size(); ++k) {
         const std::size_t end = k + 1 < parts_.size() ? parts_[k + 1].first : owners_.size();
@@ -67,6 +91,27 @@ std::vector<RayScene::Part> LitTriangles::parts(const std::optional<Box>& period
         parts.push_back(std::move(part));
     }
     return parts;
+}
+
+/// How many boxes of parts a ray through all of them meets: surfaces of boxes over the surface of the whole.
+double LitTriangles::crowding(const std::vector<RayScene::Part>& parts, const std::optional<Box>& period) const {
+    Box whole = bounds_;
+    for (const int axis : {0, 2}) {
+        if (!period) continue;
+        whole.lower[axis] = period->lower[axis];
+        whole.upper[axis] = period->upper[axis];
+    }
+    double sum = 0;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        if (parts[k].corners.empty()) continue;
+        for (const glm::dvec3 shift : parts[k].shifts) {
+            const glm::dvec3 lower = glm::max(parts_[k].bounds.lower + shift, whole.lower),
+                             upper = glm::min(parts_[k].bounds.upper + shift, whole.upper);
+            sum += surface(glm::max(upper - lower, 0.0));
+        }
+    }
+    const double all = surface(whole.upper - whole.lower);
+    return all > 0 ? sum / all : 0;
 }
 
 glm::dvec3 LitTriangles::area_vector_of(std::size_t triangle) const {
