@@ -65,8 +65,8 @@ std::vector<RayScene::Part> LitTriangles::parts(const std::optional<Box>& period
     if (crowding(parts, period) <= most_crowded) return parts;
     RayScene::Part all{corners_, {}};
     for (const RayScene::Part& part : parts) {
-        for (const glm::vec3& shift : part.shifts) {
-            if (std::find(all.shifts.begin(), all.shifts.end(), shift) == all.shifts.end()) all.shifts.push_back(shift);
+        for (const glm::mat4x3& place : part.places) {
+            if (std::find(all.places.begin(), all.places.end(), place) == all.places.end()) all.places.push_back(place);
         }
     }
     return {std::move(all)};
@@ -79,13 +79,13 @@ std::vector<RayScene::Part> LitTriangles::separate_parts(const std::optional<Box
         const std::size_t first = parts_[k].first;
         RayScene::Part part{std::span(corners_).subspan(3 * first, 3 * (end - first)), {}};
         if (!period || end == first) {
-            part.shifts.emplace_back(0, 0, 0);
+            part.places.push_back(moved_by({0, 0, 0}));
         } else {
             const glm::dvec3 size = period->upper - period->lower;
             const glm::dvec3 from = glm::ceil((period->lower - parts_[k].bounds.upper) / size);
             const glm::dvec3 to = glm::floor((period->upper - parts_[k].bounds.lower) / size);
             for (double x = from.x; x <= to.x; ++x) {
-                for (double z = from.z; z <= to.z; ++z) part.shifts.emplace_back(x * size.x, 0, z * size.z);
+                for (double z = from.z; z <= to.z; ++z) part.places.push_back(moved_by({x * size.x, 0, z * size.z}));
             }
         }
         parts.push_back(std::move(part));
@@ -104,7 +104,8 @@ double LitTriangles::crowding(const std::vector<RayScene::Part>& parts, const st
     double sum = 0;
     for (std::size_t k = 0; k < parts.size(); ++k) {
         if (parts[k].corners.empty()) continue;
-        for (const glm::dvec3 shift : parts[k].shifts) {
+        for (const glm::mat4x3& place : parts[k].places) {
+            const glm::dvec3 shift(place[3]);
             const glm::dvec3 lower = glm::max(parts_[k].bounds.lower + shift, whole.lower),
                              upper = glm::min(parts_[k].bounds.upper + shift, whole.upper);
             sum += surface(glm::max(upper - lower, 0.0));

@@ -145,7 +145,8 @@ TEST_CASE("a part that has not changed is not built again, and light in it is th
     std::vector<glm::vec3> two{{0, 2, 0}, {1, 2, 0}, {0, 2, 1}};
     RayScene scene;
     const auto set = [&] {
-        const std::vector<RayScene::Part> parts{{one, {{0, 0, 0}, {5, 0, 0}}}, {two, {{0, 0, 0}}}};
+        const std::vector<RayScene::Part> parts{{one, {moved_by({0, 0, 0}), moved_by({5, 0, 0})}},
+                                                {two, {moved_by({0, 0, 0})}}};
         return scene.set_parts(parts);
     };
     CHECK(set() == 2);
@@ -157,7 +158,7 @@ TEST_CASE("a part that has not changed is not built again, and light in it is th
     CHECK(shifted->part == 0);
     CHECK(shifted->distance == Approx(1));
     CHECK_FALSE(scene.first_hit({9.2f, 0, 0.2f}, {0, 1, 0}, 0, 100));
-    const std::vector<RayScene::Part> first{{one, {{0, 0, 0}}}};
+    const std::vector<RayScene::Part> first{{one, {moved_by({0, 0, 0})}}};
     CHECK(scene.set_parts(first) == 0);
     CHECK_FALSE(scene.first_hit({5.2f, 0, 0.2f}, {0, 1, 0}, 0, 100));
 }

@@ -15,7 +15,7 @@ struct OneTriangle {
     std::vector<glm::vec3> corners{{0, 1, 0}, {1, 1, 0}, {0, 1, 1}};
     RayScene scene;
     OneTriangle() {
-        const std::vector<RayScene::Part> parts{{corners, {{0, 0, 0}}}};
+        const std::vector<RayScene::Part> parts{{corners, {moved_by({0, 0, 0})}}};
         scene.set_parts(parts);
     }
 };
@@ -57,7 +57,7 @@ TEST_CASE("which of two coincident triangles a ray meets does not depend on the 
     const auto hits_of = [&](std::size_t threads) {
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
         RayScene scene;
-        const std::vector<RayScene::Part> parts{{corners, {{0, 0, 0}}}};
+        const std::vector<RayScene::Part> parts{{corners, {moved_by({0, 0, 0})}}};
         scene.set_parts(parts);
         RandomSamples own(RandomKey(6, 0, Stream::process, 1), 3, 0);
         std::vector<std::uint32_t> hits;
