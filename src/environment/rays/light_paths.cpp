@@ -91,7 +91,8 @@ void LightPaths::set_sources(const Daylight& light, std::span<const Lamp> lamps,
     for (const LightBeam& beam : light.beams) {
         if (beam.photons <= 0) continue;
         light_ += beam.photons * (options_.period ? size.x * size.z * beam.towards.y : across);
-        beams_.push_back(beam);
+        const glm::dvec3 x = any_across(beam.towards);
+        beams_.push_back({beam, x, glm::cross(beam.towards, x)});
         powers_.push_back(light_);
     }
     for (const Lamp& lamp : lamps) {
@@ -128,7 +129,8 @@ void LightPaths::trace(std::uint32_t paths, std::uint32_t seed) {
     });
 }
 
-LightPaths::Path LightPaths::from_beam(const LightBeam& beam, const std::array<double, 4>& sample) const {
+LightPaths::Path LightPaths::from_beam(const Source& source, const std::array<double, 4>& sample) const {
+    const auto& [beam, x, y] = source;
     const glm::dvec3& towards = beam.towards;
     Path path{{}, -towards};
     path.weights.fill(1);
@@ -138,7 +140,6 @@ LightPaths::Path LightPaths::from_beam(const LightBeam& beam, const std::array<d
         const glm::dvec3 size = period.upper - period.lower;
         path.origin = {period.lower.x + sample[1] * size.x, centre_.y + radius_, period.lower.z + sample[2] * size.z};
     } else {
-        const glm::dvec3 x = any_across(towards), y = glm::cross(towards, x);
         path.origin = centre_ + radius_ * (towards + (2 * sample[1] - 1) * x + (2 * sample[2] - 1) * y);
     }
     return path;
@@ -350,7 +351,7 @@ glm::dvec3 LightPaths::towards(std::size_t slot) const {
 
 double LightPaths::open_light(const glm::dvec3& place) const {
     double sum = 0;
-    for (const LightBeam& beam : beams_) {
+    for (const auto& [beam, x, y] : beams_) {
         Path path{place, beam.towards, near_};
         constexpr double seen = 0.5;  // the mean of a small leaf's area over all directions, as the light sees it
         if (advance_with(path, [](double) {}).kind == Met::Kind::sky) sum += seen * beam.photons;

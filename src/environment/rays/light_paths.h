@@ -73,6 +73,11 @@ private:
         enum class Kind : std::uint8_t { triangle, soil, sky } kind = Kind::sky;
         RayScene::Hit hit{};
     };
+    /// Light of one direction, and two unit vectors across it.
+    struct Source {
+        LightBeam beam;
+        glm::dvec3 x, y;
+    };
     // In units of 2^-32 paths, so that their order does not matter.
     using Sums = std::vector<std::uint64_t>;
     using OfBands = std::array<std::uint64_t, most_bands>;
@@ -92,7 +97,7 @@ private:
     void set_sources(const Daylight& light, std::span<const Lamp> lamps, double lamp_seconds,
                      std::span<const double> factors, const glm::dvec3& size);
     Path first_of(const std::array<double, 4>& sample) const;
-    Path from_beam(const LightBeam& beam, const std::array<double, 4>& sample) const;
+    Path from_beam(const Source& source, const std::array<double, 4>& sample) const;
     void follow(std::uint32_t number, std::uint32_t seed, Ends& ends);
     template <class Pass>
     Met advance_with(Path& path, const Pass& pass) const;
@@ -117,7 +122,7 @@ private:
 
     RayScene scene_;
     const LitTriangles* triangles_ = nullptr;
-    std::vector<LightBeam> beams_;
+    std::vector<Source> beams_;
     std::span<const Lamp> lamps_;
     std::vector<std::array<double, most_bands>> lamp_weights_;
     std::vector<double> powers_;  ///< sums up to each beam, then lamp; the last is 1

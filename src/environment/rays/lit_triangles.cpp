@@ -11,11 +11,11 @@
 namespace espalier::environment {
 namespace {
 
-/// Below it, the parts' own trees of boxes cost less than to build one of all triangles in each step.
-constexpr double most_crowded = 2;
+/// Where parts overlap more, a ray that looks into each of them costs more than building all triangles anew.
+constexpr double most_crowded = 1.5;
 
-double surface(const glm::dvec3& size) {
-    return 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
+double volume(const glm::dvec3& size) {
+    return size.x * size.y * size.z;
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ std::vector<RayScene::Part> LitTriangles::separate_parts(const std::optional<Box
     return parts;
 }
 
-/// How many boxes of parts a ray through all of them meets: surfaces of boxes over the surface of the whole.
+/// In how many boxes of parts a place lies in the mean: their volumes over that of the whole.
 double LitTriangles::crowding(const std::vector<RayScene::Part>& parts, const std::optional<Box>& period) const {
     Box whole = bounds_;
     for (const int axis : {0, 2}) {
@@ -108,10 +108,10 @@ double LitTriangles::crowding(const std::vector<RayScene::Part>& parts, const st
             const glm::dvec3 shift(place[3]);
             const glm::dvec3 lower = glm::max(parts_[k].bounds.lower + shift, whole.lower),
                              upper = glm::min(parts_[k].bounds.upper + shift, whole.upper);
-            sum += surface(glm::max(upper - lower, 0.0));
+            sum += volume(glm::max(upper - lower, 0.0));
         }
     }
-    const double all = surface(whole.upper - whole.lower);
+    const double all = volume(whole.upper - whole.lower);
     return all > 0 ? sum / all : 0;
 }
 

@@ -52,6 +52,7 @@ struct RayScene::Embree {
     std::vector<BuiltPart> parts;
     std::vector<Standing> instances;
     std::optional<EmbreeScene> all;
+    RTCScene met = nullptr;  ///< what rays are sent into
 
     Embree() { require_success(); }
     ~Embree() {
@@ -139,6 +140,11 @@ std::size_t RayScene::set_parts(std::span<const Part> parts) {
     own.parts.erase(own.parts.begin() + static_cast<std::ptrdiff_t>(parts.size()), own.parts.end());
     rtcCommitScene(own.all->get());
     own.require_success();
+    // A lone part that is not moved needs no look into the places first, a sixth of a ray's time.
+    const bool is_alone = own.instances.size() == 1;
+    const Standing alone = is_alone ? own.instances.front() : Standing{};
+    const bool is_as_given = is_alone && parts[alone.part].places[alone.place] == moved_by({0, 0, 0});
+    own.met = is_as_given ? own.parts[alone.part].scene.get() : own.all->get();
     return built;
 }
 
@@ -148,16 +154,17 @@ std::optional<RayScene::Hit> RayScene::first_hit(const glm::vec3& origin, const 
     RTCRayHit ray{ray_of(origin, direction, from, to), {}};
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    intersect(embree_->all->get(), ray);
+    intersect(embree_->met, ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    const auto [part, place] = embree_->instances[ray.hit.instID[0]];
+    const std::uint32_t instance = ray.hit.instID[0];
+    const auto [part, place] = embree_->instances[instance == RTC_INVALID_GEOMETRY_ID ? 0 : instance];
     return Hit{part, ray.hit.primID, ray.ray.tfar, ray.hit.u, ray.hit.v, place};
 }
 
 bool RayScene::is_blocked(const glm::vec3& origin, const glm::vec3& direction, float from, float to) const {
     if (embree_->instances.empty()) return false;
     RTCRay ray = ray_of(origin, direction, from, to);
-    return is_occluded(embree_->all->get(), ray);
+    return is_occluded(embree_->met, ray);
 }
 
 }  // namespace espalier::geometry

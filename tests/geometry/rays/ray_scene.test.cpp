@@ -70,3 +70,32 @@ TEST_CASE("which of two coincident triangles a ray meets does not depend on the 
     };
     CHECK(hits_of(1) == hits_of(4));
 }
+
+TEST_CASE("a part that stands alone is hit to the last bit as one beside others", "[rays]") {
+    RandomSamples samples(RandomKey(7, 0, Stream::process, 1), 3, 0);
+    const auto place = [&] { return glm::vec3(samples.uniform(), samples.uniform(), samples.uniform()); };
+    std::vector<glm::vec3> corners, far_away{{900, 0, 0}, {901, 0, 0}, {900, 1, 0}};
+    for (int i = 0; i < 3000; ++i) {
+        const glm::vec3 middle = 3.0F * place();
+        for (int k = 0; k < 3; ++k) corners.push_back(middle + 0.2F * place());
+    }
+    RayScene alone, beside;
+    const std::vector<RayScene::Part> one{{corners, {moved_by({0, 0, 0})}}},
+        two{{corners, {moved_by({0, 0, 0})}}, {far_away, {moved_by({0, 0, 0})}}};
+    alone.set_parts(one);
+    beside.set_parts(two);
+    int hits = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const glm::vec3 origin = 3.0F * place(), direction = glm::normalize(place() - 0.5F);
+        const auto a = alone.first_hit(origin, direction, 1e-5F, 50),
+                   b = beside.first_hit(origin, direction, 1e-5F, 50);
+        REQUIRE(a.has_value() == b.has_value());
+        REQUIRE(alone.is_blocked(origin, direction, 1e-5F, 50) == a.has_value());
+        if (!a) continue;
+        REQUIRE(a->triangle == b->triangle);
+        REQUIRE(a->distance == b->distance);
+        REQUIRE(a->u == b->u);
+        ++hits;
+    }
+    CHECK(hits > 5000);
+}
