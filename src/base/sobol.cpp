@@ -32,15 +32,7 @@ constexpr Directions van_der_corput() {
 constexpr std::array<Directions, 4> all_directions{van_der_corput(), directions(1, 0, {1, 0, 0}),
                                                    directions(2, 1, {1, 3, 0}), directions(3, 1, {1, 3, 1})};
 
-std::uint32_t sobol(std::uint32_t index, const Directions& v) {
-    std::uint32_t x = 0;
-    for (int k = 0; index != 0; ++k, index >>= 1) {
-        if ((index & 1) != 0) x ^= v[k];
-    }
-    return x;
-}
-
-std::uint32_t reversed(std::uint32_t x) {
+constexpr std::uint32_t reversed(std::uint32_t x) {
     x = (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
     x = (x & 0x33333333u) << 2 | (x >> 2 & 0x33333333u);
     x = (x & 0x0F0F0F0Fu) << 4 | (x >> 4 & 0x0F0F0F0Fu);
@@ -48,24 +40,52 @@ std::uint32_t reversed(std::uint32_t x) {
     return x << 16 | x >> 16;
 }
 
-/// Each bit is turned as those above it and the seed say (Laine & Karras 2011, with Burley's constants).
-std::uint32_t owen_scrambled(std::uint32_t x, std::uint32_t seed) {
-    x = reversed(x) + seed;
+using OfDimensions = std::array<std::uint32_t, 4>;
+using ByBytes = std::array<std::array<OfDimensions, 256>, 4>;
+
+/// What each byte of a reversed index adds to the reversed numbers of all dimensions: four looks into tables are
+/// Sobol's sequence, and scrambling begins and ends with reversed numbers.
+constexpr ByBytes tables_by_bytes() {
+    ByBytes tables{};
+    for (int byte = 0; byte < 4; ++byte) {
+        for (std::uint32_t value = 0; value < 256; ++value) {
+            for (std::uint32_t d = 0; d < 4; ++d) {
+                for (int bit = 0; bit < 8; ++bit) {
+                    if ((value >> bit & 1) == 0) continue;
+                    tables[byte][value][d] ^= reversed(all_directions[d][31 - (8 * byte + bit)]);
+                }
+            }
+        }
+    }
+    return tables;
+}
+
+constexpr ByBytes by_bytes = tables_by_bytes();
+
+/// Each bit of a reversed number is turned as those below it and the seed say (Laine & Karras 2011, with Burley's
+/// constants).
+std::uint32_t scrambled(std::uint32_t x, std::uint32_t seed) {
+    x += seed;
     x ^= x * 0x6C50B47Cu;
     x ^= x * 0xB82F1E52u;
     x ^= x * 0xC7AFE638u;
     x ^= x * 0x8D22F6E6u;
-    return reversed(x);
+    return x;
 }
 
 }  // namespace
 
 std::array<double, 4> scrambled_sobol(std::uint32_t index, std::uint32_t seed) {
-    const std::uint32_t shuffled = owen_scrambled(index, seed);
+    const std::uint32_t shuffled = scrambled(reversed(index), seed);
+    OfDimensions numbers{};
+    for (int byte = 0; byte < 4; ++byte) {
+        const OfDimensions& added = by_bytes[byte][shuffled >> 8 * byte & 0xFF];
+        for (int d = 0; d < 4; ++d) numbers[d] ^= added[d];
+    }
     std::array<double, 4> sample;
     for (std::uint32_t d = 0; d < 4; ++d) {
         const auto own = static_cast<std::uint32_t>(mix(seed, d + 1));
-        sample[d] = owen_scrambled(sobol(shuffled, all_directions[d]), own) * 0x1p-32;
+        sample[d] = reversed(scrambled(numbers[d], own)) * 0x1p-32;
     }
     return sample;
 }

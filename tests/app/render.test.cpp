@@ -250,7 +250,6 @@ TEST_CASE("render: wrong words are told with what is meant, exit code 1", "[rend
     refuses("--samples 9", "needs --light");
     refuses("--sun 3:4", "needs --light");
     refuses("--light --no-shade", "do not go together");
-    refuses("--light --field light", "do not go together");
     refuses("--light --sun 3", "AZIMUTH:ELEVATION");
     refuses("--light --sun 3:-4", "AZIMUTH:ELEVATION");
     refuses("--light --sky blue", "blue");

@@ -36,11 +36,11 @@ public:
         return names;
     }
 
-    void check_same(const std::string& folder) const {
-        CHECK(files(folder) == files("whole"));
-        for (const std::string& name : files("whole")) {
+    void check_same(const std::string& folder, const std::string& whole = "whole") const {
+        CHECK(files(folder) == files(whole));
+        for (const std::string& name : files(whole)) {
             INFO(name);
-            CHECK(text_of(path() / folder / name) == text_of(path() / "whole" / name));
+            CHECK(text_of(path() / folder / name) == text_of(path() / whole / name));
         }
     }
 };
@@ -71,6 +71,35 @@ TEST_CASE_METHOD(Resumed, "an interrupted run leaves a checkpoint, whatever it w
         [](pid_t process) { kill(process, SIGTERM); });
     if (outcome.code == 130) CHECK(run("resume again --quiet").code == 0);
     check_same("again");
+}
+
+TEST_CASE_METHOD(Resumed, "light in photons is the same in a run that was killed and went on with one thread",
+                 "[app]") {
+    const char* const leaves =
+        "environment light;\nlsystem: 1\nseed: 2\nderivation length: 12\naxiom: !(0.006) A\n"
+        "A --> F(0.03) [ &(55) ?light(1, 0) L(0.08) ] /(137.5) A\n?light(f, m) L(s) : f < 0.2 --> *\n"
+        "L(s) --> L(s * 1.02)\nhomomorphism\nL(s) --> { . +(25) f(s / 2) . -(50) f(s / 2) . -(130) f(s / 2) . }\n"
+        "endlsystem\n";
+    const std::string rest =
+        "periodic = true\nvoxel = 0.1\npaths = 4096\nbands.par = { leaf = [0.1, 0.1] }\nbands.nir = { leaf = [0.4, "
+        "0.4] "
+        "}\nsky = { latitude = 50, day = 172, clearness = 0.5 }\n[timeline]\norgans = [\"light.absorbed\", "
+        "\"light.brightest\"]\n";
+    write("leaves.l", leaves);
+    for (const std::string process : {"ray-light", "canopy-light"}) {
+        CAPTURE(process);
+        write(process + ".toml",
+              "[simulation]\ndomain = { lower = [-0.2, 0, -0.2], upper = [0.2, 1, 0.2] }\n[[plant]]\nmodel = "
+              "\"leaves.l\"\npositions = [[0, 0, 0], [0.1, 0, 0.05]]\n[environment.light]\nprocess = \"" +
+                  process + "\"\n" + rest);
+        const std::string whole = process + "-whole", again = process + "-again";
+        REQUIRE(run("run " + process + ".toml --quiet --output " + whole).code == 0);
+        const auto has_checkpoint = [&] { return fs::exists(path() / again / "checkpoint"); };
+        run_until({"run", process + ".toml", "--quiet", "--output", again, "--checkpoint-every", "2"}, has_checkpoint,
+                  [](pid_t child) { kill(child, SIGKILL); });
+        if (has_checkpoint()) CHECK(run("resume " + again + " --quiet --threads 1").code == 0);
+        check_same(again, whole);
+    }
 }
 
 TEST_CASE_METHOD(Resumed, "what cannot go on is refused in words", "[app]") {

@@ -2,6 +2,7 @@
 
 #include "catch.h"
 
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -47,4 +48,17 @@ TEST_CASE("the mean of a smooth function comes nearer than by independent sample
         squares += std::pow(sum / count - 1.0 / 16, 2) / 16;
     }
     CHECK(std::sqrt(squares) < independent / 5);
+}
+
+TEST_CASE("samples are what they were: recorded runs keep their bytes", "[sobol]") {
+    const auto units = [](std::uint32_t index, std::uint32_t seed) {
+        std::array<std::uint32_t, 4> numbers{};
+        const std::array<double, 4> sample = scrambled_sobol(index, seed);
+        for (int d = 0; d < 4; ++d) numbers[d] = static_cast<std::uint32_t>(sample[d] * 0x1p32);
+        return numbers;
+    };
+    CHECK(units(0, 0) == std::array{283523004u, 2696933460u, 2622420803u, 3442351960u});
+    CHECK(units(77, 5) == std::array{1387451204u, 3676181717u, 3877521716u, 94405318u});
+    CHECK(units(123456789, 0xDEADBEEF) == std::array{490428316u, 257182805u, 2846729497u, 563742728u});
+    CHECK(units(0xFFFFFFFF, 0) == std::array{3552294605u, 3073691818u, 359961938u, 38740733u});
 }

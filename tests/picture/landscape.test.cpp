@@ -60,19 +60,24 @@ double resident() {
 
 }  // namespace
 
-TEST_CASE("a ray through a tree of boxes meets what a search of all triangles finds", "[landscape]") {
+TEST_CASE("a ray meets what a search of all triangles finds", "[landscape]") {
     const FrameMesh mesh = small_species().levels.front();
     const RayMesh rays(mesh, no_texture);
+    PlacedMeshes scene({&rays});
+    scene.place({{0, 2, glm::vec3(5, 6, 7), glm::quat(0.5F, 0.5F, 0.5F, 0.5F)}});
+    const auto outside = [](const glm::vec3& place) {  // the turn takes x to y, y to z and z to x
+        return glm::vec3(5, 6, 7) + 2.0F * glm::vec3(place.z, place.x, place.y);
+    };
     RandomSamples samples({1, 2, Stream::process}, 3, 4);
     int met = 0;
     for (int i = 0; i < 400; ++i) {
         const glm::vec3 from(4 * samples.uniform() - 2, 3 * samples.uniform(), 3),
             to(samples.uniform() - 0.5, 2 * samples.uniform(), -0.5);
-        Ray ray{from, glm::normalize(to - from)};
+        const glm::vec3 direction = glm::normalize(to - from);
         float nearest = std::numeric_limits<float>::max();
         for (const auto& [a, b, c] : mesh.triangles) {
             const glm::dvec3 o(mesh.points[a]), u = glm::dvec3(mesh.points[b]) - o, v = glm::dvec3(mesh.points[c]) - o;
-            const glm::dvec3 normal = glm::cross(u, v), d(ray.direction);
+            const glm::dvec3 normal = glm::cross(u, v), d(direction);
             if (glm::length(normal) == 0 || glm::dot(normal, d) == 0) continue;
             const double t = glm::dot(o - glm::dvec3(from), normal) / glm::dot(d, normal);
             const glm::dvec3 at = glm::dvec3(from) + t * d - o;
@@ -80,11 +85,12 @@ TEST_CASE("a ray through a tree of boxes meets what a search of all triangles fi
             const double r = glm::dot(glm::cross(u, at), normal) / glm::dot(normal, normal);
             if (t > 0 && s >= 0 && r >= 0 && s + r <= 1) nearest = std::min(nearest, static_cast<float>(t));
         }
-        Ray shortened = ray;
-        const bool hit = rays.hit(shortened).has_value();
+        const glm::vec3 towards = glm::vec3(direction.z, direction.x, direction.y);
+        const auto seen = scene.seen(outside(from), towards, light);
+        const bool hit = seen.has_value();
         CHECK(hit == (nearest < 1e30F));
-        CHECK(hit == rays.blocks(ray));
-        if (hit) CHECK(shortened.furthest == Approx(nearest).epsilon(1e-4));
+        CHECK(hit == scene.is_dark(outside(from), towards));
+        if (hit) CHECK(seen->distance == Approx(2 * nearest).epsilon(1e-4));
         met += hit;
     }
     CHECK(met > 50);
@@ -153,7 +159,8 @@ TEST_CASE("a landscape is drawn the same with one thread, and a plant in the sun
     CHECK(draw().pixels == picture.pixels);
     for (const auto& pixel : picture.pixels) CHECK(pixel[3] == 255);
     const RayMesh mesh(landscape.species[0].levels[0], no_texture);
-    const RayScene scene({&mesh}, {{0, 1, glm::vec3(0), glm::quat(1, 0, 0, 0)}});
+    PlacedMeshes scene({&mesh});
+    scene.place({{0, 1, glm::vec3(0), glm::quat(1, 0, 0, 0)}});
     CHECK(scene.is_dark(glm::vec3(0, 0.7F, 0) - 0.5F * light.towards_sun, light.towards_sun));
     CHECK_FALSE(scene.is_dark(glm::vec3(9, 0, 0), light.towards_sun));
 }

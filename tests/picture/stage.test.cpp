@@ -152,6 +152,37 @@ TEST_CASE("stage: the surface and the cloud of a field are drawn where it is", "
     }
 }
 
+TEST_CASE("stage: a traced picture has the colours of a field's plane where nothing stands before it", "[pictures]") {
+    if (!can_draw()) return;
+    HandmadePlant pole;
+    pole.add_internode(1, 0, 0, 0, 0, {1.6, 2, 4}, {1.6, 3.5, 4}, 0.1);  // before the right half of the field
+    Pictured pictured({&pole});
+    PictureStyle style = pictured.plain();
+    style.light = PictureLight();
+    style.light->samples = 1;
+    const auto traced = [&](double behind) {
+        style.fields = {{"light", FieldLook::Kind::slice, 'z', behind, {}}};
+        (void)pictured.picture(style);
+        return pictured.painter->traced({}, {});
+    };
+    PictureStyle drawn = pictured.plain();
+    drawn.fields = {{"light", FieldLook::Kind::slice, 'z', 3.25, {}}};
+    const auto field = pictured.picture(drawn);
+    const glm::dvec3 free(1.25, 2.25, 3.25), hidden(1.6, 2.4, 4.05);
+    const Pixel expected = pictured.seen(*field, free);
+    const auto with_field = traced(3.25);
+    const Pixel there = pictured.seen(*with_field, free), pole_there = pictured.seen(*with_field, hidden);
+    style.fields.clear();
+    (void)pictured.picture(style);
+    const auto without = pictured.painter->traced({}, {});
+    const Pixel pole_alone = pictured.seen(*without, hidden), sky = pictured.seen(*without, free);
+    for (int k = 0; k < 3; ++k) {
+        // The plane lets 30 of 255 parts through: of white where nothing else is drawn.
+        CHECK(there[k] == Approx(expected[k] - 30 + 30.0 / 255 * sky[k]).margin(6));
+        CHECK(std::abs(pole_there[k] - pole_alone[k]) < 12);
+    }
+}
+
 TEST_CASE("stage: the same frame gives the same picture, byte for byte", "[pictures]") {
     if (!can_draw()) return;
     const HandmadePlant plant = branched_plant();

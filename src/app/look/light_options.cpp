@@ -48,9 +48,6 @@ void LightOptions::check() const {
         }
         return;
     }
-    if (command_.count("--field") > 0) {
-        throw UserError("--field and --light do not go together: paths of light meet no fields; leave one out");
-    }
     if (command_.count("--no-shade") > 0) {
         throw UserError("--no-shade and --light do not go together: light casts shadows; leave one out");
     }

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <numbers>
 
 namespace espalier::environment {
@@ -77,7 +78,6 @@ std::size_t LightPaths::set(const LitTriangles& triangles, std::size_t slots, co
     const glm::dvec3 farthest = glm::max(glm::abs(box.lower), glm::abs(box.upper));
     near_ = 1e-5 * std::max({farthest.x, farthest.y, farthest.z, 1e-3});
     for (Sums* sums : {&absorbed_, &front_, &back_}) sums->resize(slots * bands());
-    for (Sums* sums : {&by_soil_, &by_solids_, &escaped_, &brought_}) sums->resize(bands());
     sun_.resize(slots);
     towards_.resize(3 * slots);
     set_sources(light, lamps, lamp_seconds, factors, box.upper - box.lower);
@@ -95,7 +95,8 @@ void LightPaths::set_sources(const Daylight& light, std::span<const Lamp> lamps,
     for (const LightBeam& beam : light.beams) {
         if (beam.photons <= 0) continue;
         light_ += beam.photons * (options_.period ? size.x * size.z * beam.towards.y : across);
-        beams_.push_back(beam);
+        const glm::dvec3 x = any_across(beam.towards);
+        beams_.push_back({beam, x, glm::cross(beam.towards, x)});
         powers_.push_back(light_);
     }
     for (const Lamp& lamp : lamps) {
@@ -115,15 +116,25 @@ void LightPaths::set_sources(const Daylight& light, std::span<const Lamp> lamps,
 
 void LightPaths::trace(std::uint32_t paths, std::uint32_t seed) {
     paths_ = paths;
-    for (Sums* sums : {&absorbed_, &front_, &back_, &sun_, &towards_, &by_soil_, &by_solids_, &escaped_, &brought_,
-                       &through_sensors_}) {
+    for (Sums* sums : {&absorbed_, &front_, &back_, &sun_, &towards_, &through_sensors_}) {
         std::fill(sums->begin(), sums->end(), 0);
     }
+    ends_ = {};
     if (powers_.empty()) return;
-    for_in_parallel(std::uint32_t{0}, paths, [&](std::uint32_t number) { follow(number, seed); });
+    std::mutex adding;
+    for_in_parallel(tbb::blocked_range<std::uint32_t>(0, paths), [&](const tbb::blocked_range<std::uint32_t>& part) {
+        Ends ends;
+        for (std::uint32_t number = part.begin(); number != part.end(); ++number) {
+            end_if_asked();
+            follow(number, seed, ends);
+        }
+        const std::lock_guard guard(adding);
+        ends_.add(ends);
+    });
 }
 
-LightPaths::Path LightPaths::from_beam(const LightBeam& beam, const std::array<double, 4>& sample) const {
+LightPaths::Path LightPaths::from_beam(const Source& source, const std::array<double, 4>& sample) const {
+    const auto& [beam, x, y] = source;
     const glm::dvec3& towards = beam.towards;
     Path path{{}, -towards};
     path.weights.fill(1);
@@ -133,7 +144,6 @@ LightPaths::Path LightPaths::from_beam(const LightBeam& beam, const std::array<d
         const glm::dvec3 size = period.upper - period.lower;
         path.origin = {period.lower.x + sample[1] * size.x, centre_.y + radius_, period.lower.z + sample[2] * size.z};
     } else {
-        const glm::dvec3 x = any_across(towards), y = glm::cross(towards, x);
         path.origin = centre_ + radius_ * (towards + (2 * sample[1] - 1) * x + (2 * sample[2] - 1) * y);
     }
     return path;
@@ -158,19 +168,20 @@ LightPaths::Path LightPaths::first_of(const std::array<double, 4>& sample) const
     return path;
 }
 
-void LightPaths::follow(std::uint32_t number, std::uint32_t seed) {
-    const auto sample = [&](std::uint32_t bounce) {
+void LightPaths::follow(std::uint32_t number, std::uint32_t seed, Ends& ends) {
+    const auto sample_of = [&](std::uint32_t bounce) {
         const auto own = static_cast<std::uint32_t>(mix(seed, bounce));
         return options_.evenly ? scrambled_sobol(number, own) : independent_numbers(number, own);
     };
-    Path path = first_of(sample(0));
-    add(brought_, 0, path);
-    if (path.origin.y < options_.ground) return add(by_soil_, 0, path);  // it met the soil before
+    Path path = first_of(sample_of(0));
+    add(ends.brought, path);
+    if (path.origin.y < options_.ground) return add(ends.soil, path);  // it met the soil before
     for (std::uint32_t bounce = 1;; ++bounce) {
         const Met met = advance_with(path, [&](double to) { count_at_sensors(path, to); });
-        if (met.kind == Met::Kind::sky) return add(escaped_, 0, path);
-        const bool goes_on = met.kind == Met::Kind::soil ? scatter_from_soil(path, sample(bounce))
-                                                         : scatter(path, met.hit, sample(bounce));
+        if (met.kind == Met::Kind::sky) return add(ends.escaped, path);
+        const auto sample = [&] { return sample_of(bounce); };  // where the path ends, nobody asks for it
+        const bool goes_on =
+            met.kind == Met::Kind::soil ? scatter_from_soil(path, sample, ends) : scatter(path, met.hit, sample, ends);
         if (!goes_on) return;
         path.is_first = false;
     }
@@ -248,12 +259,12 @@ void LightPaths::note_meeting(const Path& path, const LitTriangles::Owner& owner
 }
 
 /// False where the path ends.
-bool LightPaths::scatter(Path& path, const RayScene::Hit& hit, const std::array<double, 4>& sample) {
+template <class Sample>
+bool LightPaths::scatter(Path& path, const RayScene::Hit& hit, const Sample& sample_of, Ends& ends) {
     const LitTriangles::Owner& owner = triangles_->owner(hit);
     const glm::dvec3 normal = triangles_->normal(hit);
     const bool on_back = glm::dot(path.direction, normal) > 0;
     note_meeting(path, owner, on_back);
-    Sums& absorbers = owner.kind == LitKind::solid ? by_solids_ : absorbed_;
     std::array<SideOptics, most_bands> optics;
     double back = 0, through = 0;
     for (std::size_t b = 0; b < bands(); ++b) {
@@ -262,9 +273,10 @@ bool LightPaths::scatter(Path& path, const RayScene::Hit& hit, const std::array<
         through += path.weights[b] * optics[b].transmittance;
     }
     if (!(back + through > 0) || normal == glm::dvec3(0)) {
-        add(absorbers, owner.slot, path);
+        absorb(owner, path, ends);
         return false;
     }
+    const std::array<double, 4> sample = sample_of();
     const double chance = back / (back + through);
     const bool turns_back = sample[0] < chance;
     Path absorbed = path;
@@ -273,9 +285,9 @@ bool LightPaths::scatter(Path& path, const RayScene::Hit& hit, const std::array<
         absorbed.weights[b] *= 1 - reflected - transmitted;
         path.weights[b] *= turns_back ? reflected / chance : transmitted / (1 - chance);
     }
-    add(absorbers, owner.slot, absorbed);
-    if (ends(path)) {
-        add(absorbers, owner.slot, path);
+    absorb(owner, absorbed, ends);
+    if (is_spent(path)) {
+        absorb(owner, path, ends);
         return false;
     }
     const glm::dvec3 facing = on_back ? -normal : normal;
@@ -284,24 +296,26 @@ bool LightPaths::scatter(Path& path, const RayScene::Hit& hit, const std::array<
     return true;
 }
 
-bool LightPaths::scatter_from_soil(Path& path, const std::array<double, 4>& sample) {
+template <class Sample>
+bool LightPaths::scatter_from_soil(Path& path, const Sample& sample_of, Ends& ends) {
     Path absorbed = path;
     for (std::size_t b = 0; b < bands(); ++b) {
         const double reflectance = optics_.soil(path.origin, b);
         absorbed.weights[b] *= 1 - reflectance;
         path.weights[b] *= reflectance;
     }
-    add(by_soil_, 0, absorbed);
-    if (ends(path)) {
-        add(by_soil_, 0, path);
+    add(ends.soil, absorbed);
+    if (is_spent(path)) {
+        add(ends.soil, path);
         return false;
     }
+    const std::array<double, 4> sample = sample_of();
     path.direction = lambertian({0, 1, 0}, sample[1], sample[2]);
     path.near = near_;
     return true;
 }
 
-bool LightPaths::ends(const Path& path) const {
+bool LightPaths::is_spent(const Path& path) const {
     const auto of_band = path.weights.begin();
     return *std::max_element(of_band, of_band + static_cast<std::ptrdiff_t>(bands())) < options_.residual;
 }
@@ -316,13 +330,31 @@ void LightPaths::add(Sums& sums, std::size_t slot, const Path& path) const {
     }
 }
 
+void LightPaths::add(OfBands& sums, const Path& path) const {
+    for (std::size_t b = 0; b < bands(); ++b) sums[b] += static_cast<std::uint64_t>(units(path.weights[b]));
+}
+
+void LightPaths::absorb(const LitTriangles::Owner& owner, const Path& path, Ends& ends) {
+    if (owner.kind == LitKind::solid) return add(ends.solids, path);
+    add(absorbed_, owner.slot, path);
+}
+
+void LightPaths::Ends::add(const Ends& other) {
+    for (std::size_t b = 0; b < most_bands; ++b) {
+        brought[b] += other.brought[b];
+        soil[b] += other.soil[b];
+        solids[b] += other.solids[b];
+        escaped[b] += other.escaped[b];
+    }
+}
+
 glm::dvec3 LightPaths::towards(std::size_t slot) const {
     return {share(towards_[3 * slot]), share(towards_[3 * slot + 1]), share(towards_[3 * slot + 2])};
 }
 
 double LightPaths::open_light(const glm::dvec3& place) const {
     double sum = 0;
-    for (const LightBeam& beam : beams_) {
+    for (const auto& [beam, x, y] : beams_) {
         Path path{place, beam.towards, near_};
         constexpr double seen = 0.5;  // the mean of a small leaf's area over all directions, as the light sees it
         if (advance_with(path, [](double) {}).kind == Met::Kind::sky) sum += seen * beam.photons;

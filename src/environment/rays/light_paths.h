@@ -48,11 +48,11 @@ public:
     /// Light of the sun that nothing has scattered, in PAR, and the mean direction to all light that nothing has.
     double sun(std::size_t slot) const { return share(sun_[slot]); }
     glm::dvec3 towards(std::size_t slot) const;
-    double absorbed_by_soil(std::size_t band) const { return share(by_soil_[band]); }
-    double absorbed_by_solids(std::size_t band) const { return share(by_solids_[band]); }
-    double escaped(std::size_t band) const { return share(escaped_[band]); }
+    double absorbed_by_soil(std::size_t band) const { return share(ends_.soil[band]); }
+    double absorbed_by_solids(std::size_t band) const { return share(ends_.solids[band]); }
+    double escaped(std::size_t band) const { return share(ends_.escaped[band]); }
     /// All that the paths have brought in a band; 1 but for lamps.
-    double brought(std::size_t band) const { return share(brought_[band]); }
+    double brought(std::size_t band) const { return share(ends_.brought[band]); }
     /// What passes a cell of a sensor from its front.
     double passed(std::size_t sensor, std::size_t cell, std::size_t band) const {
         return share(through_sensors_[(first_cells_[sensor] + cell) * bands() + band]);
@@ -73,7 +73,20 @@ private:
         enum class Kind : std::uint8_t { triangle, soil, sky } kind = Kind::sky;
         RayScene::Hit hit{};
     };
-    using Sums = std::vector<std::uint64_t>;  ///< in units of 2^-32 paths, so that their order does not matter
+    /// Light of one direction, and two unit vectors across it.
+    struct Source {
+        LightBeam beam;
+        glm::dvec3 x, y;
+    };
+    // In units of 2^-32 paths, so that their order does not matter.
+    using Sums = std::vector<std::uint64_t>;
+    using OfBands = std::array<std::uint64_t, most_bands>;
+    /// Where light begins and ends but for organs. Nearly every path adds to it, so each thread has its own.
+    struct Ends {
+        OfBands brought{}, soil{}, solids{}, escaped{};
+
+        void add(const Ends& other);
+    };
 
     static std::int64_t units(double weight);
     double share(std::uint64_t sum) const {
@@ -84,19 +97,23 @@ private:
     void set_sources(const Daylight& light, std::span<const Lamp> lamps, double lamp_seconds,
                      std::span<const double> factors, const glm::dvec3& size);
     Path first_of(const std::array<double, 4>& sample) const;
-    Path from_beam(const LightBeam& beam, const std::array<double, 4>& sample) const;
-    void follow(std::uint32_t number, std::uint32_t seed);
+    Path from_beam(const Source& source, const std::array<double, 4>& sample) const;
+    void follow(std::uint32_t number, std::uint32_t seed, Ends& ends);
     template <class Pass>
     Met advance_with(Path& path, const Pass& pass) const;
     double to_side(const Path& path) const;
     void enter_opposite(Path& path) const;
     void count_at_sensors(const Path& path, double to);
-    bool scatter(Path& path, const RayScene::Hit& hit, const std::array<double, 4>& sample);
-    bool scatter_from_soil(Path& path, const std::array<double, 4>& sample);
+    template <class Sample>
+    bool scatter(Path& path, const RayScene::Hit& hit, const Sample& sample, Ends& ends);
+    template <class Sample>
+    bool scatter_from_soil(Path& path, const Sample& sample, Ends& ends);
+    void absorb(const LitTriangles::Owner& owner, const Path& path, Ends& ends);
     void note_meeting(const Path& path, const LitTriangles::Owner& owner, bool on_back);
     SideOptics optics_of(const LitTriangles::Owner& owner, bool on_back, std::size_t band) const;
-    bool ends(const Path& path) const;
+    bool is_spent(const Path& path) const;
     void add(Sums& sums, std::size_t slot, const Path& path) const;
+    void add(OfBands& sums, const Path& path) const;
 
     const Optics& optics_;
     std::vector<LightSensor> sensors_;
@@ -105,7 +122,7 @@ private:
 
     RayScene scene_;
     const LitTriangles* triangles_ = nullptr;
-    std::vector<LightBeam> beams_;
+    std::vector<Source> beams_;
     std::span<const Lamp> lamps_;
     std::vector<std::array<double, most_bands>> lamp_weights_;
     std::vector<double> powers_;  ///< sums up to each beam, then lamp; the last is 1
@@ -113,7 +130,8 @@ private:
     glm::dvec3 centre_{0, 0, 0};
     double radius_ = 0, near_ = 0, top_ = 0;
     std::uint32_t paths_ = 1;
-    Sums absorbed_, front_, back_, sun_, towards_, by_soil_, by_solids_, escaped_, brought_, through_sensors_;
+    Sums absorbed_, front_, back_, sun_, towards_, through_sensors_;
+    Ends ends_;
 };
 
 }  // namespace espalier::environment

@@ -33,7 +33,8 @@ public:
     /// The surface of a solid with bounds, from voxels of that length; a part of its own.
     void add(const Shape& solid, double voxel);
 
-    /// All parts, to be met inside a period: each stands wherever it reaches into it. The spans are of this object.
+    /// All parts, to be met inside a period: each stands wherever it reaches into it. Where they stand so close that a
+    /// ray would have to look into many, they are one part. The spans are of this object.
     std::vector<RayScene::Part> parts(const std::optional<Box>& period) const;
 
     std::size_t size() const { return owners_.size(); }
@@ -53,6 +54,9 @@ private:
         Box bounds;
     };
 
+    std::vector<RayScene::Part> separate_parts(const std::optional<Box>& period) const;
+    double crowding(const std::vector<RayScene::Part>& parts, const std::optional<Box>& period) const;
+    // One part of all triangles begins as the first part does.
     std::size_t number_of(const RayScene::Hit& hit) const { return parts_[hit.part].first + hit.triangle; }
     glm::dvec3 normal(std::size_t triangle) const;
     glm::dvec3 area_vector_of(std::size_t triangle) const;

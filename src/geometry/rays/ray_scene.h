@@ -1,6 +1,7 @@
-// Triangles that rays meet. The seam to Embree (Wald et al. 2014): nothing else includes it.
+// Triangles that rays meet: the seam to Embree (Wald et al. 2014).
 #pragma once
 
+#include <glm/mat4x3.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstddef>
@@ -12,6 +13,9 @@
 
 namespace espalier::geometry {
 
+/// A place that is not turned.
+glm::mat4x3 moved_by(const glm::vec3& shift);
+
 /// Parts, each a mesh of its own that may stand in several places. A part that has not changed is not built again.
 class RayScene {
 public:
@@ -19,17 +23,23 @@ public:
         std::uint32_t part, triangle;  ///< the triangle counts from the part's first
         float distance;                ///< in lengths of the direction
         float u = 0, v = 0;            ///< weights of the triangle's second and third corner
+        std::uint32_t place = 0;       ///< of the part's
     };
     struct Part {
         std::span<const glm::vec3> corners;  ///< three a triangle
-        std::vector<glm::vec3> shifts;       ///< where it stands; {0, 0, 0} is as given
+        std::vector<glm::mat4x3> places;     ///< where it stands: columns of a turn and scale, and a shift
     };
 
     /// Throws RunError if there is no memory for it.
     RayScene();
     ~RayScene();
+    RayScene(RayScene&&) noexcept;
+    RayScene& operator=(RayScene&&) noexcept;
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;
+
+    /// Memory for a triangle of a part, about: its corners and Embree's boxes.
+    static constexpr std::size_t bytes_per_triangle = 200;
 
     /// Replaces everything; part k is compared with part k of before. Returns how many parts were built. Throws
     /// RunError if there is no memory for them.
@@ -50,6 +60,7 @@ private:
 
 namespace espalier {
 
+using geometry::moved_by;
 using geometry::RayScene;
 
 }  // namespace espalier

@@ -81,8 +81,9 @@ Pixel pixel_of(const unsigned char* bytes) {
     return {bytes[0] / 255.0F, bytes[1] / 255.0F, bytes[2] / 255.0F, bytes[3] / 255.0F};
 }
 
-/// A traced picture between its background and what is written on it.
-vtkSmartPointer<vtkImageData> composed(const OpacityPicture& traced, vtkImageData& written,
+/// A traced picture over its background, under what is drawn over it: `on_black` and `on_white` are that, and differ by
+/// what is seen through.
+vtkSmartPointer<vtkImageData> composed(const OpacityPicture& traced, vtkImageData& on_black, vtkImageData& on_white,
                                        const PictureBackground& background) {
     auto picture = vtkSmartPointer<vtkImageData>::New();
     const int channels = background.transparent ? 4 : 3;
@@ -91,15 +92,20 @@ vtkSmartPointer<vtkImageData> composed(const OpacityPicture& traced, vtkImageDat
     const auto& [red, green, blue] = background.rgb;
     const std::array<unsigned char, 4> behind{red, green, blue,
                                               background.transparent ? std::uint8_t{0} : std::uint8_t{255}};
-    const auto* letters = static_cast<const unsigned char*>(written.GetScalarPointer());
+    const auto *black = static_cast<const unsigned char*>(on_black.GetScalarPointer()),
+               *white = static_cast<const unsigned char*>(on_white.GetScalarPointer());
     auto* to = static_cast<unsigned char*>(picture->GetScalarPointer());
     for (std::size_t y = traced.height; y-- > 0;) {
-        for (std::size_t x = 0; x < traced.width; ++x, letters += 4, to += channels) {
+        for (std::size_t x = 0; x < traced.width; ++x, black += 3, white += 3, to += channels) {
             const Pixel plants = over(pixel_of(traced.at(x, y).data()), pixel_of(behind.data()));
-            const Pixel all = over(pixel_of(letters), plants);
-            for (int k = 0; k < channels; ++k) {
-                to[k] = static_cast<unsigned char>(std::lround(255 * all[static_cast<std::size_t>(k)]));
+            float through = 0;
+            for (int k = 0; k < 3; ++k) through += static_cast<float>(std::max(0, white[k] - black[k])) / (3 * 255);
+            const float rest = plants[3] * through, opacity = 1 - through + rest;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const float colour = opacity > 0 ? (black[k] / 255.0F + rest * plants[k]) / opacity : 0;
+                to[k] = static_cast<unsigned char>(std::lround(255 * std::min(1.0F, colour)));
             }
+            if (channels == 4) to[3] = static_cast<unsigned char>(std::lround(255 * opacity));
         }
     }
     return picture;
@@ -130,7 +136,10 @@ vtkSmartPointer<vtkImageData> FramePainter::traced(const PictureSky& sky, const 
     const SkyLight light(sky, direction_at(azimuth, elevation));
     const PathTracer tracer(scene, light, ground ? ground->reflectance : open_ground);
     const OpacityPicture picture = traced_picture(tracer, light, stage_.view(), size_, *style.light, progress);
-    return composed(picture, *shrunk(*window_.image_with_alpha(), size_), style.background);
+    stage_.clear_for_light(0);
+    const auto on_black = shrunk(*window_.image(), size_);
+    stage_.clear_for_light(1);
+    return composed(picture, *on_black, *shrunk(*window_.image(), size_), style.background);
 }
 
 vtkSmartPointer<vtkImageData> picture_of(const Legend& legend, const PictureBackground& background, int height) {

@@ -17,6 +17,7 @@ namespace {
 constexpr int rows_of_band = 8;
 constexpr int samples_of_card = 3;
 constexpr int most_pixels = 8192;
+constexpr std::size_t bytes_of_place = 600;  // mostly Embree's instance
 
 glm::quat turned(double degrees) {
     return glm::angleAxis(static_cast<float>(glm::radians(degrees)), glm::vec3(0, 1, 0));
@@ -87,6 +88,7 @@ public:
     CardPainter(const LandscapeSpecies& species, const glm::dvec3& towards, const TextureOf& texture_of)
         : mesh_(species.levels.front()),
           rays_(mesh_, texture_of),
+          scene_({&rays_}),
           middle_(0, species.height / 2, 0),
           towards_(towards) {
         const glm::dquat view = towards_eye(glm::dvec3(0), towards);
@@ -97,7 +99,7 @@ public:
         }
     }
 
-    CardPicture card(double degrees, const RayLight& light, std::size_t pixels) const {
+    CardPicture card(double degrees, const RayLight& light, std::size_t pixels) {
         CardFrame frame = frame_at(degrees);
         const glm::dvec2 size = frame.upper - frame.lower;
         const double pixel = std::max(size.x, size.y) / double(pixels);
@@ -107,11 +109,11 @@ public:
         OpacityPicture picture{count(size.x), count(size.y), {}};
         picture.pixels.resize(picture.width * picture.height);
         frame.upper = frame.lower + pixel * glm::dvec2(double(picture.width), double(picture.height));
-        const RayScene scene({&rays_}, {{0, 1, glm::vec3(0), turned(degrees)}});
+        scene_.place({{0, 1, glm::vec3(0), turned(degrees)}});
         const auto see = [&](const glm::dvec2& place) -> std::optional<glm::vec3> {
             const double x = frame.lower.x + pixel * place.x, y = frame.upper.y - pixel * place.y;
             const glm::dvec3 from = middle_ + x * right_ + y * up_ + reach_ * towards_;
-            const auto seen = scene.seen({glm::vec3(from), glm::vec3(-towards_)}, light);
+            const auto seen = scene_.seen(glm::vec3(from), glm::vec3(-towards_), light);
             return seen ? std::optional(seen->colour) : std::nullopt;
         };
         fill_rows(picture, 0, picture.height, samples_of_card, see);
@@ -135,6 +137,7 @@ private:
 
     const FrameMesh& mesh_;
     RayMesh rays_;
+    PlacedMeshes scene_;
     glm::dvec3 middle_, towards_, right_{0}, up_{0};
     double reach_ = 0;
 };
@@ -152,12 +155,12 @@ public:
         for (const PlantedPlant& plant : landscape.plants) places.push_back(place_of(plant));
         std::vector<const RayMesh*> meshes;
         for (const auto& mesh : meshes_) meshes.push_back(mesh.get());
-        bytes_ += places.size() * (sizeof(RayPlace) + sizeof(RayBox));
+        bytes_ += places.size() * bytes_of_place;
         require_memory();
-        scene_.emplace(std::move(meshes), std::move(places));
+        scene_.emplace(std::move(meshes)).place(std::move(places));
     }
 
-    const RayScene& scene() const { return *scene_; }
+    const PlacedMeshes& scene() const { return *scene_; }
 
 private:
     std::uint32_t add_mesh(const FrameMesh& mesh, const TextureOf& texture_of) {
@@ -197,7 +200,7 @@ private:
     glm::dvec3 eye_;
     std::vector<std::unique_ptr<RayMesh>> meshes_;
     std::map<std::array<std::uint16_t, 3>, std::uint32_t> mesh_of_;  ///< by species, level and turn
-    std::optional<RayScene> scene_;
+    std::optional<PlacedMeshes> scene_;
     std::size_t bytes_ = 0;
 };
 
@@ -226,7 +229,7 @@ private:
 
 std::vector<CardPicture> card_pictures(const LandscapeSpecies& species, const glm::dvec3& towards,
                                        const RayLight& light, std::size_t pixels, const TextureOf& texture_of) {
-    const CardPainter painter(species, glm::normalize(towards), texture_of);
+    CardPainter painter(species, glm::normalize(towards), texture_of);
     std::vector<CardPicture> cards;
     for (std::uint16_t turn = 0; turn < card_turns; ++turn) {
         cards.push_back(painter.card(degrees_of_turn(turn), light, pixels));
@@ -248,7 +251,7 @@ OpacityPicture landscape_picture(const PlantedLandscape& landscape, const std::v
     picture.pixels.resize(picture.width * picture.height);
     const auto see = [&](const glm::dvec2& place) -> std::optional<glm::vec3> {
         const glm::vec3 direction = camera.direction(place);
-        const auto seen = rays.scene().seen({glm::vec3(view.eye), direction}, light);
+        const auto seen = rays.scene().seen(glm::vec3(view.eye), direction, light);
         if (!seen) return sky_at(direction);
         const float clear = std::exp(-seen->distance / static_cast<float>(look.visibility));
         return glm::mix(sky_at(glm::vec3(0)), seen->colour, clear);

@@ -4,7 +4,7 @@
 #include "espalier/picture/chart_page.h"
 
 #include "archive/landscape/landscape.h"
-#include "picture/landscape/ray_scene.h"
+#include "picture/landscape/placed_meshes.h"
 
 #include <functional>
 

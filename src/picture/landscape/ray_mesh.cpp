@@ -31,61 +31,31 @@ RayMesh::RayMesh(const FrameMesh& mesh, const TextureOf& texture_of) : points_(m
     if (looks_.size() > 0xffff) throw RunError("a plant of a landscape has more than 65535 materials");
     const auto wears = [](const Look& look) { return look.texture != nullptr; };
     if (std::any_of(looks_.begin(), looks_.end(), wears)) uvs_ = mesh.uvs;
-    std::vector<RayBox> boxes;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         triangles_.push_back({mesh.triangles[i], static_cast<std::uint16_t>(mesh.material_of[i]), false});
-        for (const std::uint32_t corner : mesh.triangles[i]) boxes.resize(i + 1), boxes[i].add(points_[corner]);
-        bounds_.add(boxes[i]);
     }
     for (const MeshPart& part : mesh.parts) {
         if (part.kind == Kind::axis) continue;
         for (std::size_t i = 0; i < part.triangles; ++i) triangles_[part.first_triangle + i].is_thin = true;
     }
-    tree_.emplace(boxes);
 }
 
-// Moeller & Trumbore 1997.
-bool RayMesh::meets(const Ray& ray, const Triangle& triangle, float& distance, float& u, float& v) const {
-    const glm::vec3& a = points_[triangle.corners[0]];
-    const glm::vec3 ab = points_[triangle.corners[1]] - a, ac = points_[triangle.corners[2]] - a;
-    const glm::vec3 across = glm::cross(ray.direction, ac);
-    const float determinant = glm::dot(ab, across);
-    if (determinant == 0) return false;
-    const glm::vec3 off = ray.origin - a;
-    u = glm::dot(off, across) / determinant;
-    if (!(u >= 0 && u <= 1)) return false;
-    const glm::vec3 over = glm::cross(off, ab);
-    v = glm::dot(ray.direction, over) / determinant;
-    if (!(v >= 0 && u + v <= 1)) return false;
-    distance = glm::dot(ac, over) / determinant;
-    if (!(distance > ray.nearest && distance < ray.furthest)) return false;
-    return !looks_[triangle.material].texture || is_opaque(triangle, u, v);
+std::vector<glm::vec3> RayMesh::corners() const {
+    std::vector<glm::vec3> corners;
+    corners.reserve(3 * triangles_.size());
+    for (const Triangle& triangle : triangles_) {
+        for (const std::uint32_t corner : triangle.corners) corners.push_back(points_[corner]);
+    }
+    return corners;
 }
 
-// Every other ray goes on through what is half transparent, as chance decides for its place.
-bool RayMesh::is_opaque(const Triangle& triangle, float u, float v) const {
-    const int opacity = texel(triangle, u, v)[3];
-    const std::uint64_t place = std::uint64_t{std::bit_cast<std::uint32_t>(u)} << 32 | std::bit_cast<std::uint32_t>(v);
+bool RayMesh::is_opaque(const Hit& hit) const {
+    const Triangle& triangle = triangles_[hit.triangle];
+    if (!looks_[triangle.material].texture) return true;
+    const int opacity = texel(triangle, hit.u, hit.v)[3];
+    const std::uint64_t place =
+        std::uint64_t{std::bit_cast<std::uint32_t>(hit.u)} << 32 | std::bit_cast<std::uint32_t>(hit.v);
     return static_cast<int>(mix(place) % 255) < opacity;
-}
-
-std::optional<RayMesh::Hit> RayMesh::hit(Ray& ray) const {
-    std::optional<Hit> found;
-    tree_->visit(ray, [&](std::uint32_t item) {
-        float distance = 0, u = 0, v = 0;
-        if (!meets(ray, triangles_[item], distance, u, v)) return false;
-        ray.furthest = distance;
-        found = Hit{item, u, v};
-        return false;
-    });
-    return found;
-}
-
-bool RayMesh::blocks(Ray ray) const {
-    return tree_->visit(ray, [&](std::uint32_t item) {
-        float distance = 0, u = 0, v = 0;
-        return meets(ray, triangles_[item], distance, u, v);
-    });
 }
 
 const OpacityPicture::Pixel& RayMesh::texel(const Triangle& triangle, float u, float v) const {
@@ -111,7 +81,7 @@ RaySurface RayMesh::surface(const Hit& hit) const {
 
 std::size_t RayMesh::bytes() const {
     return points_.size() * 2 * sizeof(glm::vec3) + uvs_.size() * sizeof(glm::vec2) +
-           triangles_.size() * sizeof(Triangle) + tree_->bytes();
+           triangles_.size() * (sizeof(Triangle) + geometry::RayScene::bytes_per_triangle);
 }
 
 }  // namespace espalier::picture

@@ -3,11 +3,17 @@
 
 #include "archive/meshes/surface_mesh.h"
 #include "base/png_file.h"
-#include "picture/landscape/box_tree.h"
+#include "geometry/rays/ray_scene.h"
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
+#include <string>
+#include <vector>
 
 namespace espalier::picture {
 
@@ -24,17 +30,15 @@ class RayMesh {
 public:
     RayMesh(const FrameMesh& mesh, const TextureOf& texture_of);
 
-    struct Hit {
-        std::uint32_t triangle;
-        float u, v;  ///< weights of the second and third corner
-    };
-    /// The nearest opaque place, to which the ray is shortened.
-    std::optional<Hit> hit(Ray& ray) const;
-    /// Whether anything opaque lies on the ray.
-    bool blocks(Ray ray) const;
+    using Hit = geometry::RayScene::Hit;
+
+    /// Three a triangle.
+    std::vector<glm::vec3> corners() const;
+    /// Every other ray goes on through what is half transparent, as chance decides for its place.
+    bool is_opaque(const Hit& hit) const;
     RaySurface surface(const Hit& hit) const;
 
-    const RayBox& bounds() const { return bounds_; }
+    /// With what rays need beside it.
     std::size_t bytes() const;
 
 private:
@@ -48,16 +52,12 @@ private:
         std::shared_ptr<const OpacityPicture> texture;
     };
 
-    bool meets(const Ray& ray, const Triangle& triangle, float& distance, float& u, float& v) const;
-    bool is_opaque(const Triangle& triangle, float u, float v) const;
     const OpacityPicture::Pixel& texel(const Triangle& triangle, float u, float v) const;
 
     std::vector<glm::vec3> points_, normals_;
     std::vector<glm::vec2> uvs_;  ///< empty where nothing wears a texture
     std::vector<Triangle> triangles_;
     std::vector<Look> looks_;
-    std::optional<BoxTree> tree_;
-    RayBox bounds_;
 };
 
 }  // namespace espalier::picture

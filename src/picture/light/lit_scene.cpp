@@ -126,7 +126,7 @@ LitScene::LitScene(std::vector<LitPart> parts, const std::optional<LitGround>& g
         }
         is_opaque_ = is_opaque_ && part.opacities.empty() && !part.texture;
     }
-    for (const auto& of_part : corners) rays.push_back({of_part, {glm::vec3(0)}});
+    for (const auto& of_part : corners) rays.push_back({of_part, {moved_by(glm::vec3(0))}});
     rays_.set_parts(rays);
 }
 

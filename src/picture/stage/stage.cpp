@@ -25,6 +25,7 @@
 #include <vtkContextScene.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderWindow.h>
@@ -91,6 +92,7 @@ public:
     };
     std::vector<Part> parts_;
     std::vector<vtkSmartPointer<vtkProp>> others_;               ///< fields, ground, labels
+    std::vector<vtkSmartPointer<vtkActor>> silhouettes_;         ///< of what a traced picture shows
     std::optional<vtkSmartPointer<vtkActor>> background_scene_;  ///< null: none. Read once
     std::vector<vtkSmartPointer<vtkActor>> highlight_actors_;
     std::optional<CameraView> view_;
@@ -175,6 +177,11 @@ public:
         return LitGround{disc->middle, disc->radius, goes_on ? open_ground : linear_of(soil), !goes_on};
     }
 
+    void clear_for_light(double grey) {
+        renderer_->SetBackground(grey, grey, grey);
+        for (const auto& actor : silhouettes_) actor->GetProperty()->SetColor(grey, grey, grey);
+    }
+
     void show_highlight() {
         for (const auto& actor : highlight_actors_) renderer_->RemoveActor(actor);
         highlight_actors_.clear();
@@ -215,15 +222,15 @@ private:
         for (const auto& prop : others_) renderer_->RemoveViewProp(prop);
         parts_.clear();
         others_.clear();
+        silhouettes_.clear();
         here_ = {};
         add_survey(*frame_, *geometry_, here_);
         legend_->legend = {};
         build_meshes();
-        if (!style_.light) {
-            add_lights_and_colours();
-            add_field_props();
-            add_background_scene();
-        }
+        if (!style_.light) add_lights_and_colours();
+        if (style_.light && !style_.fields.empty()) add_silhouettes();
+        add_field_props();
+        if (!style_.light) add_background_scene();
         add_labels();
         write_legend();
         show_highlight();
@@ -280,6 +287,27 @@ private:
             renderer_->AddActor(part.actor);
         }
         if (style_.ground && !is_flat()) add_ground(daylight ? &*daylight : nullptr);
+    }
+
+    /// Plants in one colour without light, so that they hide what of fields lies behind them.
+    void add_silhouettes() {
+        for (Part& part : parts_) add_silhouette(part.actor, part.mesh.data);
+        if (!background_scene_) background_scene_ = background_actor(*run_);
+        if (!*background_scene_) return;
+        (*background_scene_)->GetMapper()->Update();
+        const auto actor = vtkSmartPointer<vtkActor>::New();
+        add_silhouette(actor, vtkPolyData::SafeDownCast((*background_scene_)->GetMapper()->GetInput()));
+        others_.emplace_back(actor);
+    }
+
+    void add_silhouette(const vtkSmartPointer<vtkActor>& actor, vtkPolyData* data) {
+        vtkNew<vtkPolyDataMapper> mapper;
+        mapper->SetInputData(data);
+        mapper->ScalarVisibilityOff();
+        actor->SetMapper(mapper);
+        actor->GetProperty()->LightingOff();
+        silhouettes_.push_back(actor);
+        renderer_->AddActor(actor);
     }
 
     /// "" where there is none, or something else is shown.
@@ -479,6 +507,10 @@ std::vector<LitPart> Stage::lit_parts() const {
 
 std::optional<LitGround> Stage::lit_ground() const {
     return body_->lit_ground();
+}
+
+void Stage::clear_for_light(double grey) {
+    body_->clear_for_light(grey);
 }
 
 const CameraView& Stage::view() const {

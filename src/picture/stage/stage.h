@@ -87,6 +87,9 @@ public:
     /// What stands in the light of a style with `light`, and the ground under it, until something else is shown.
     std::vector<LitPart> lit_parts() const;
     std::optional<LitGround> lit_ground() const;
+    /// Paints all that such a picture shows in one grey, 0 to 1: the background, and behind fields the plants. Between
+    /// 0 and 1, a pixel differs by the share of the picture that is seen through fields, labels and legend.
+    void clear_for_light(double grey);
     /// From where `place_camera` looks.
     const CameraView& view() const;
 

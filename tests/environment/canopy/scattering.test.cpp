@@ -79,6 +79,30 @@ TEST_CASE("horizontal leaves divide light as the two-stream equations say exactl
     }
 }
 
+TEST_CASE("leaves at random come as near to the two-stream equations, if a voxel holds eight of them",
+          "[canopy-light]") {
+    constexpr double area_index = 2.9, r = 0.4, t = 0.35, s = 0.1;
+    constexpr int leaves = 12000;
+    const TwoStreams exact(area_index, r, t, s);
+    for (const auto& [voxel, error] : {std::pair{"0.2", 0.003}, {"0.1", 0.009}}) {  // eight leaves, one
+        Environment light = light_process(
+            "canopy-light", std::string("periodic = true\nscattering = { residual = 1e-3 }\nvoxel = ") + voxel +
+                                "\nbands.par = { leaf = [0.4, 0.35], soil = 0.1 }\n" + sun_at(0.81));
+        AskingPlants plants;
+        plants.add({{{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}});
+        RandomSamples samples(RandomKey(4712, 0, Stream::process, 1), 5, 0);
+        for (int i = 0; i < leaves; ++i) {
+            const double x = samples.uniform(), y = samples.uniform(), z = samples.uniform();
+            draw_square(plants.interpretation(0).geometry, 1, {2 * x, 0.02 + 2.9 * y, 2 * z}, {1, 0, 0}, {0, 0, -1},
+                        std::sqrt(4 * area_index / leaves));
+        }
+        plants.exchange(light);
+        CAPTURE(voxel);
+        CHECK(statistic(light, "soil") == Approx((1 - s) * exact.down).margin(error));
+        CHECK(statistic(light, "escaped") == Approx(exact.up).margin(error));
+    }
+}
+
 TEST_CASE("drawn leaves, stems, soil and solids keep all light in every band", "[canopy-light]") {
     for (const char* periodic : {"true", "false"}) {
         Environment light =

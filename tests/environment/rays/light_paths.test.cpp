@@ -145,7 +145,8 @@ TEST_CASE("a part that has not changed is not built again, and light in it is th
     std::vector<glm::vec3> two{{0, 2, 0}, {1, 2, 0}, {0, 2, 1}};
     RayScene scene;
     const auto set = [&] {
-        const std::vector<RayScene::Part> parts{{one, {{0, 0, 0}, {5, 0, 0}}}, {two, {{0, 0, 0}}}};
+        const std::vector<RayScene::Part> parts{{one, {moved_by({0, 0, 0}), moved_by({5, 0, 0})}},
+                                                {two, {moved_by({0, 0, 0})}}};
         return scene.set_parts(parts);
     };
     CHECK(set() == 2);
@@ -157,9 +158,52 @@ TEST_CASE("a part that has not changed is not built again, and light in it is th
     CHECK(shifted->part == 0);
     CHECK(shifted->distance == Approx(1));
     CHECK_FALSE(scene.first_hit({9.2f, 0, 0.2f}, {0, 1, 0}, 0, 100));
-    const std::vector<RayScene::Part> first{{one, {{0, 0, 0}}}};
+    const std::vector<RayScene::Part> first{{one, {moved_by({0, 0, 0})}}};
     CHECK(scene.set_parts(first) == 0);
     CHECK_FALSE(scene.first_hit({5.2f, 0, 0.2f}, {0, 1, 0}, 0, 100));
+}
+
+TEST_CASE("plants that stand within each other are one part of the scene, and get the light of separate ones",
+          "[rays]") {
+    const Optics optics(Settings::parse_toml("bands.par = { leaf = [0.3, 0.2], soil = 0.1 }\n", "scene.toml"));
+    const Box period{{0, 0, 0}, {2, 3, 2}};
+    constexpr std::uint32_t plants = 8, leaves = 40;
+    const auto draw = [&](PlantGeometry& geometry, std::uint32_t plant) {
+        const std::size_t first = geometry.polygons.size();
+        draw_at_random(geometry, 0, leaves, 0.1, plant + 1);
+        for (std::size_t i = first; i < geometry.polygons.size(); ++i) geometry.polygons[i].module = std::uint32_t(i);
+    };
+    PlantGeometry all;
+    LitTriangles mixed, one;
+    for (std::uint32_t plant = 0; plant < plants; ++plant) {
+        PlantGeometry geometry;
+        draw(geometry, plant);
+        mixed.add(geometry, plant * leaves, plant, optics);
+        draw(all, plant);
+    }
+    one.add(all, 0, 0, optics);
+    CHECK(mixed.parts(period).size() == 1);
+    Daylight light;
+    light.beams.push_back({glm::normalize(glm::dvec3(0.3, 1, 0.1)), 1});
+    LightPaths in_mixed(optics, {}, {.period = period}), in_one(optics, {}, {.period = period});
+    for (const auto& [paths, triangles] : {std::pair{&in_mixed, &mixed}, {&in_one, &one}}) {
+        paths->set(*triangles, plants * leaves, light, {}, 0, std::array{1.0});
+        paths->trace(20000, 3);
+    }
+    for (std::uint32_t slot = 0; slot < plants * leaves; ++slot) {
+        REQUIRE(in_mixed.absorbed(slot, 0) == in_one.absorbed(slot, 0));
+    }
+}
+
+TEST_CASE("plants that stand apart are parts of their own", "[rays]") {
+    const Optics optics(Settings::parse_toml("bands.par = { leaf = [0, 0], soil = 0 }\n", "scene.toml"));
+    LitTriangles triangles;
+    for (std::uint32_t plant = 0; plant < 4; ++plant) {
+        PlantGeometry geometry;
+        draw_square(geometry, 0, {3.0 * plant, 1, 0}, {1, 0, 0}, {0, 0.6, 0.8}, 1);
+        triangles.add(geometry, plant, plant, optics);
+    }
+    CHECK(triangles.parts(std::nullopt).size() == 4);
 }
 
 TEST_CASE("triangles without area take no light and do no harm", "[ray-light]") {

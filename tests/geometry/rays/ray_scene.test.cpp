@@ -1,8 +1,11 @@
 #include "geometry/rays/ray_scene.h"
 
+#include "espalier/base/random.h"
+
 #include "catch.h"
 
 #include <glm/geometric.hpp>
+#include <tbb/global_control.h>
 
 using namespace espalier;
 
@@ -12,7 +15,7 @@ struct OneTriangle {
     std::vector<glm::vec3> corners{{0, 1, 0}, {1, 1, 0}, {0, 1, 1}};
     RayScene scene;
     OneTriangle() {
-        const std::vector<RayScene::Part> parts{{corners, {{0, 0, 0}}}};
+        const std::vector<RayScene::Part> parts{{corners, {moved_by({0, 0, 0})}}};
         scene.set_parts(parts);
     }
 };
@@ -34,4 +37,65 @@ TEST_CASE("a ray is blocked by what lies between its ends, and by nothing else",
     CHECK_FALSE(one.scene.is_blocked({0.3f, 0, 0.2f}, {0, 1, 0}, 1.1f, 2));
     CHECK_FALSE(one.scene.is_blocked({0.7f, 0, 0.7f}, {0, 1, 0}, 0, 2));
     CHECK_FALSE(RayScene().is_blocked({0, 0, 0}, {0, 1, 0}, 0, 2));
+}
+
+TEST_CASE("which of two coincident triangles a ray meets does not depend on the threads that build", "[rays]") {
+    RandomSamples samples(RandomKey(5, 0, Stream::process, 1), 3, 0);
+    const auto place = [&] { return glm::vec3(samples.uniform(), samples.uniform(), samples.uniform()); };
+    std::vector<glm::vec3> corners;
+    for (int i = 0; i < 8000; ++i) {
+        const glm::vec3 corner = place();
+        for (const glm::vec3& shift : {glm::vec3(0), glm::vec3(0.03f, 0, 0), glm::vec3(0, 0.01f, 0.03f)}) {
+            corners.push_back(corner + shift);
+        }
+    }
+    const std::vector<glm::vec3> once = corners;
+    for (std::size_t i = 0; i < once.size(); ++i) {
+        const std::size_t triangle = (i / 3 * 7919 + 100) % (once.size() / 3);
+        corners.push_back(once[3 * triangle + i % 3]);
+    }
+    const auto hits_of = [&](std::size_t threads) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+        RayScene scene;
+        const std::vector<RayScene::Part> parts{{corners, {moved_by({0, 0, 0})}}};
+        scene.set_parts(parts);
+        RandomSamples own(RandomKey(6, 0, Stream::process, 1), 3, 0);
+        std::vector<std::uint32_t> hits;
+        for (int i = 0; i < 20000; ++i) {
+            const glm::vec3 origin(own.uniform(), 2, own.uniform()), direction(own.uniform() - 0.5, -1, 0);
+            const auto hit = scene.first_hit(origin, direction, 0, 10);
+            hits.push_back(hit ? hit->triangle : 0xFFFFFFFF);
+        }
+        return hits;
+    };
+    CHECK(hits_of(1) == hits_of(4));
+}
+
+TEST_CASE("a part that stands alone is hit to the last bit as one beside others", "[rays]") {
+    RandomSamples samples(RandomKey(7, 0, Stream::process, 1), 3, 0);
+    const auto place = [&] { return glm::vec3(samples.uniform(), samples.uniform(), samples.uniform()); };
+    std::vector<glm::vec3> corners, far_away{{900, 0, 0}, {901, 0, 0}, {900, 1, 0}};
+    for (int i = 0; i < 3000; ++i) {
+        const glm::vec3 middle = 3.0F * place();
+        for (int k = 0; k < 3; ++k) corners.push_back(middle + 0.2F * place());
+    }
+    RayScene alone, beside;
+    const std::vector<RayScene::Part> one{{corners, {moved_by({0, 0, 0})}}},
+        two{{corners, {moved_by({0, 0, 0})}}, {far_away, {moved_by({0, 0, 0})}}};
+    alone.set_parts(one);
+    beside.set_parts(two);
+    int hits = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const glm::vec3 origin = 3.0F * place(), direction = glm::normalize(place() - 0.5F);
+        const auto a = alone.first_hit(origin, direction, 1e-5F, 50),
+                   b = beside.first_hit(origin, direction, 1e-5F, 50);
+        REQUIRE(a.has_value() == b.has_value());
+        REQUIRE(alone.is_blocked(origin, direction, 1e-5F, 50) == a.has_value());
+        if (!a) continue;
+        REQUIRE(a->triangle == b->triangle);
+        REQUIRE(a->distance == b->distance);
+        REQUIRE(a->u == b->u);
+        ++hits;
+    }
+    CHECK(hits > 5000);
 }

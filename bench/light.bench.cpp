@@ -1,0 +1,285 @@
+// Light: rays of ray-light beside a bare loop over Embree, what changed plants cost, voxels of canopy-light, and the
+// paths of pictures.
+#include "base/parallel.h"
+#include "base/sobol.h"
+#include "environment/canopy/scattering.h"
+#include "environment/lit_leaves.h"
+#include "environment/rays/light_paths.h"
+#include "geometry/rays/embree.h"
+#include "geometry/vectors.h"
+#include "picture/light/path_tracer.h"
+#include "seconds_of.h"
+#include "table.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <benchmark/benchmark.h>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace espalier::bench {
+namespace {
+
+using namespace environment;
+
+constexpr std::uint32_t path_count = 1 << 17;
+constexpr double area_index = 3;
+
+Settings settings(const char* text) {
+    return Settings::parse_toml(text, "scene.toml");
+}
+
+Daylight sun_and_sky() {
+    return DaylightSeries(settings("par = 1000\ndiffuse = 0.3\nsun = [1, 2, 0]\n"), least_rise).over(0, 1);
+}
+
+/// Square leaves, each of a module of its own, over 2 x 2 m of ground.
+PlantGeometry leaves_at_random(std::size_t count, std::uint64_t seed) {
+    PlantGeometry geometry;
+    draw_at_random(geometry, 0, static_cast<int>(count), std::sqrt(4 * area_index / static_cast<double>(count)), seed);
+    for (std::size_t i = 0; i < count; ++i) geometry.polygons[i].module = static_cast<std::uint32_t>(i);
+    return geometry;
+}
+
+/// A plant of so many triangles.
+struct LitPlant {
+    Optics optics{settings("bands.par = { leaf = [0, 0], soil = 0 }\n")};
+    LitTriangles triangles;
+    std::size_t leaves;
+
+    explicit LitPlant(std::size_t count) : leaves(count / 2) {
+        triangles.add(leaves_at_random(leaves, 7), 0, 0, optics);
+    }
+};
+
+void rays_of_ray_light(benchmark::State& state) {
+    const LitPlant plant(static_cast<std::size_t>(state.range(0)));
+    LightPaths paths(plant.optics, {}, {});
+    paths.set(plant.triangles, plant.leaves, sun_and_sky(), {}, 0, std::array{1.0});
+    for (auto _ : state) paths.trace(path_count, 5);
+    state.SetItemsProcessed(state.iterations() * path_count);
+}
+BENCHMARK(rays_of_ray_light)->Arg(10'000)->Arg(100'000)->Arg(1'000'000)->UseRealTime();
+
+struct Ray {
+    glm::vec3 origin, direction;
+};
+
+/// As the paths of `ray-light` begin.
+std::vector<Ray> rays_towards(const Box& box) {
+    const Daylight light = sun_and_sky();
+    std::vector<double> powers;
+    for (const LightBeam& beam : light.beams) powers.push_back(beam.photons);
+    std::partial_sum(powers.begin(), powers.end(), powers.begin());
+    const glm::dvec3 centre = (box.lower + box.upper) / 2.0;
+    const double radius = glm::length(box.upper - box.lower) / 2;
+    std::vector<Ray> rays;
+    for (std::uint32_t i = 0; i < path_count; ++i) {
+        const auto [source, u, v, spare] = scrambled_sobol(i, 9);
+        const auto beam = std::upper_bound(powers.begin(), powers.end() - 1, source * powers.back()) - powers.begin();
+        const glm::dvec3 towards = light.beams[static_cast<std::size_t>(beam)].towards;
+        const glm::dvec3 x = any_across(towards), y = glm::cross(towards, x);
+        const glm::dvec3 origin = centre + radius * (towards + (2 * u - 1) * x + (2 * v - 1) * y);
+        rays.push_back(Ray{glm::vec3(origin), glm::vec3(-towards)});
+    }
+    return rays;
+}
+
+/// One mesh in a scene of Embree, without anything around it.
+class BareEmbree {
+public:
+    BareEmbree(const char* options, std::span<const glm::vec3> corners)
+        : device_(rtcNewDevice(options)), scene_(rtcNewScene(device_)) {
+        RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto* places = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), corners.size()));
+        auto* numbers = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), corners.size() / 3));
+        std::copy(corners.begin(), corners.end(), places);
+        std::iota(numbers, numbers + corners.size(), 0U);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(scene_, geometry);
+        rtcReleaseGeometry(geometry);
+        rtcCommitScene(scene_);
+    }
+    ~BareEmbree() {
+        rtcReleaseScene(scene_);
+        rtcReleaseDevice(device_);
+    }
+    BareEmbree(const BareEmbree&) = delete;
+    BareEmbree& operator=(const BareEmbree&) = delete;
+
+    std::size_t hits(std::span<const Ray> rays) const {
+        std::atomic<std::size_t> hits = 0;
+        for_in_parallel(tbb::blocked_range<std::size_t>(0, rays.size()), [&](const auto& part) {
+            std::size_t own = 0;
+            for (std::size_t i = part.begin(); i < part.end(); ++i) {
+                const auto& [o, d] = rays[i];
+                RTCRayHit ray{{o.x, o.y, o.z, 0, d.x, d.y, d.z, 0, INFINITY, 0xFFFFFFFF, 0, 0}, {}};
+                ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+                geometry::intersect(scene_, ray);
+                own += ray.hit.geomID != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
+            }
+            hits += own;
+        });
+        return hits;
+    }
+
+private:
+    RTCDevice device_;
+    RTCScene scene_;
+};
+
+void bare_rays(benchmark::State& state, const char* options) {
+    const LitPlant plant(static_cast<std::size_t>(state.range(0)));
+    const BareEmbree scene(options, plant.triangles.parts({}).front().corners);
+    const std::vector<Ray> rays = rays_towards(plant.triangles.bounds());
+    for (auto _ : state) benchmark::DoNotOptimize(scene.hits(rays));
+    state.SetItemsProcessed(state.iterations() * path_count);
+}
+void rays_of_bare_embree(benchmark::State& state) {
+    bare_rays(state, "isa=sse2");
+}
+void rays_of_widest_embree(benchmark::State& state) {
+    bare_rays(state, "");
+}
+BENCHMARK(rays_of_bare_embree)->Arg(10'000)->Arg(100'000)->Arg(1'000'000)->UseRealTime();
+BENCHMARK(rays_of_widest_embree)->Arg(10'000)->UseRealTime();
+
+/// 100 plants of 5,000 triangles in a stand 20 m wide: the scene when one of them has changed, and when all have.
+void changed_plants(benchmark::State& state) {
+    const Optics optics(settings("bands.par = { leaf = [0, 0], soil = 0 }\n"));
+    constexpr std::uint32_t leaves = 2500;
+    std::vector<PlantGeometry> plants;
+    for (std::uint32_t k = 0; k < 100; ++k) {
+        PlantGeometry& plant = plants.emplace_back(leaves_at_random(leaves, k + 1));
+        for (glm::dvec3& corner : plant.vertices) corner += glm::dvec3(2 * (k % 10), 0, 2 * (k / 10));
+    }
+    LitTriangles triangles;
+    LightPaths paths(optics, {}, {});
+    const auto seconds_with_changed = [&](std::size_t changed) {
+        for (std::size_t k = 0; k < changed; ++k) plants[k].vertices.front().y += 1e-4;
+        triangles.clear();
+        for (std::uint32_t k = 0; k < plants.size(); ++k) triangles.add(plants[k], k * leaves, k, optics);
+        return seconds_of([&] { paths.set(triangles, plants.size() * leaves, sun_and_sky(), {}, 0, std::array{1.0}); });
+    };
+    seconds_with_changed(plants.size());
+    double one = INFINITY, all = INFINITY;
+    for (auto _ : state) {
+        one = std::min(one, seconds_with_changed(1));
+        all = std::min(all, seconds_with_changed(plants.size()));
+    }
+    state.counters["work"] = one;
+    state.counters["yardstick"] = all;
+}
+BENCHMARK(changed_plants)->UseRealTime();
+
+/// 1,000,000 black leaves in 256^3 voxels, from 24 directions.
+void voxels_in_light(benchmark::State& state) {
+    constexpr int edge = 256;
+    constexpr double voxel = 3.0 / edge;
+    const Optics optics(settings("bands.par = { leaf = [0, 0], soil = 0 }\n"));
+    const LeafAngles angles("spherical");
+    CanopyLeaves leaves;
+    leaves.add(0, leaves_at_random(1'000'000, 3), voxel, optics, true);
+    const CanopyVoxels voxels{{-0.5, 0, -0.5}, {edge, edge, edge}, voxel, false};
+    leaves.sort_into(voxels);
+    std::vector<LightBeam> beams;
+    for (const SkyPart& part : sky_parts(4, 6)) beams.push_back({part.towards, 1});
+    const CanopyScattering light(voxels, leaves.pieces(), optics, angles, {}, {});
+    for (auto _ : state) benchmark::DoNotOptimize(light.first(beams).ground.data());
+}
+BENCHMARK(voxels_in_light)->UseRealTime();
+
+/// One copy for each of four beams of each direction.
+void copied_voxels(benchmark::State& state) {
+    std::vector<double> voxels(256 * 256 * 256, 1.0), copy(voxels.size());
+    for (auto _ : state) {
+        for (int beam = 0; beam < 24 * 4; ++beam) {
+            std::copy(voxels.begin(), voxels.end(), copy.begin());
+            benchmark::DoNotOptimize(copy.data());
+        }
+    }
+}
+BENCHMARK(copied_voxels)->UseRealTime();
+
+/// A plant of 100,000 triangles as `render --light` sees it: so many paths from the eye, with all their bounces.
+void paths_of_a_picture(benchmark::State& state) {
+    const LitPlant plant(100'000);
+    picture::LitPart part;
+    const auto parts = plant.triangles.parts({});
+    const std::span<const glm::vec3> corners = parts.front().corners;
+    std::vector<glm::vec3> normals(corners.size(), glm::vec3(0));
+    std::vector<std::int32_t> numbers(corners.size());
+    std::iota(numbers.begin(), numbers.end(), 0);
+    part.points = corners;
+    part.normals = normals;
+    part.corners = numbers;
+    part.colours.assign(corners.size(), {90, 140, 60});
+    part.is_thin = true;
+    const picture::LitScene scene({std::move(part)}, picture::LitGround{{1, 0, 1}, 3, picture::open_ground});
+    const picture::SkyLight light({}, glm::normalize(glm::vec3(1, 2, 0)));
+    const picture::PathTracer tracer(scene, light, picture::open_ground);
+    const std::vector<Ray> rays = rays_towards(plant.triangles.bounds());
+    for (auto _ : state) {
+        for_in_parallel(std::size_t{0}, rays.size(), [&](std::size_t i) {
+            picture::PathNumbers numbers_of_path(i, 0);
+            benchmark::DoNotOptimize(tracer.seen(rays[i].origin, rays[i].direction, true, numbers_of_path).radiance.x);
+        });
+    }
+    state.SetItemsProcessed(state.iterations() * path_count);
+}
+BENCHMARK(paths_of_a_picture)->UseRealTime();
+
+using Measure = Row::Measure;
+using Goal = Row::Goal;
+const Row few{"rays of ray-light, 10,000 triangles, against a bare loop over Embree with the same instructions",
+              "rays_of_ray_light/10000/real_time",
+              "rays_of_bare_embree/10000/real_time",
+              Measure::rate,
+              Goal::at_least,
+              0.5};
+const Row more{"the same, 100,000 triangles",
+               "rays_of_ray_light/100000/real_time",
+               "rays_of_bare_embree/100000/real_time",
+               Measure::rate,
+               Goal::at_least,
+               0.5};
+const Row many{"the same, 1,000,000 triangles",
+               "rays_of_ray_light/1000000/real_time",
+               "rays_of_bare_embree/1000000/real_time",
+               Measure::rate,
+               Goal::at_least,
+               0.5};
+const Row widest{"the same, 10,000 triangles, against Embree with the widest instructions of the machine",
+                 "rays_of_ray_light/10000/real_time",
+                 "rays_of_widest_embree/10000/real_time",
+                 Measure::rate,
+                 Goal::at_least,
+                 0.3};
+const Row changed{"scene of ray-light when 1 of 100 plants has changed, against all",
+                  "changed_plants/real_time",
+                  "",
+                  Measure::counters,
+                  Goal::at_most,
+                  0.1};
+const Row voxels{
+    "canopy-light, 10^6 leaves in 256^3 voxels, 4 beams from each of 24 directions, against a copy for each beam",
+    "voxels_in_light/real_time",
+    "copied_voxels/real_time",
+    Measure::time,
+    Goal::at_most,
+    25};
+const Row pictures{"paths of render --light, 100,000 triangles, against rays of a bare loop over Embree",
+                   "paths_of_a_picture/real_time",
+                   "rays_of_bare_embree/100000/real_time",
+                   Measure::rate,
+                   Goal::at_least,
+                   0.1};
+
+}  // namespace
+}  // namespace espalier::bench
