@@ -476,8 +476,9 @@ void SystemCompiler::make_columns() {
             return ColumnProgram::make(program, compiled_->constants, compiled_->formals, place);
         };
         if (!production.before.empty()) continue;
-        if (production.has_condition && !production.testing_samples) production.tests = columns(production.condition);
-        if (production.affine || !production.after.empty() || production.writing_samples) continue;
+        if (production.has_condition) production.tests = columns(production.condition);
+        if (production.has_weight && !production.weight.effects.samples) production.weighs = columns(production.weight);
+        if (production.affine || !production.after.empty()) continue;
         production.values = columns(production.rest_places.empty() ? production.successor : production.rest);
         compiled_->computes_columns |= production.values.has_value();
     }
