@@ -90,6 +90,64 @@ TEST_CASE("where many modules are computed at once, each reads the parameters of
     CHECK((grown(false, true, false) != grown(false, false, false)));
 }
 
+TEST_CASE("random numbers of many modules at once are those of each alone", "[lsystem]") {
+    const auto grown = [](bool ordered) {
+        ModelBuilder model;
+        model.system().seed = number(5);
+        for (int k = 0; k < 3'000; ++k) model.system().axiom.push_back(model.module("A", {number(k % 13), number(k)}));
+        const Expression x = formal(0), y = formal(1), ran = call(Function::ran, {number(1)});
+        const Expression normal = call(Function::nran, {x, y * number(0.01)});
+        // Who does not come to a random number takes none.
+        const Expression sometimes = apply(Operator::logical_and, {number(3) < x, ran < number(0.6)});
+        model
+            .rule({{"A", 2}}, {model.module("A", {choose(x < number(6), ran, normal) + ran, call(Function::ran, {y})}),
+                               model.module("B", {normal, call(Function::pow, {y, ran})})})
+            .condition = sometimes;
+        model.rule({{"A", 2}}, {model.module("A", {x + number(1), y * ran})}).condition = ran < number(0.8);
+        if (ordered) give_order(model);
+        return text_after(model, 4);
+    };
+    CHECK((grown(false) == grown(true)));
+}
+
+TEST_CASE("weights of many modules at once choose what those of each alone choose", "[lsystem]") {
+    const auto grown = [](bool ordered) {
+        ModelBuilder model;
+        model.system().seed = number(6);
+        for (int k = 0; k < 3'000; ++k) model.system().axiom.push_back(model.module("A", {number(k % 13)}));
+        const Expression x = formal(0);
+        const auto rule = [&](const char* symbol, double value, Expression weight) -> Production& {
+            Production& made = model.rule({{"A", 1}}, {model.module(symbol, {x * number(0.5) + number(value)})});
+            made.weight = std::move(weight);
+            return made;
+        };
+        rule("A", 1, number(0.3)).condition = x < number(9);
+        rule("A", 2, x).condition = call(Function::ran, {number(13)}) < x;
+        rule("B", 3, number(0));
+        rule("A", 4, apply(Operator::power, {x, number(1.5)})).condition = number(11) < x;
+        rule("C", 5, number(2)).condition = apply(Operator::equal, {x, number(0)});
+        if (ordered) give_order(model);
+        return text_after(model, 5);
+    };
+    CHECK((grown(false) == grown(true)));
+}
+
+TEST_CASE("a weight that is none, and a random number that is not to be had, are named", "[lsystem]") {
+    const auto refused = [](bool by_weight) {
+        ModelBuilder model;
+        model.system().seed = number(1);
+        for (int k = 0; k < 300; ++k) model.system().axiom.push_back(model.module("A", {number(200 - k)}));
+        const Expression x = formal(0), huge = number(1e300) * number(1e300);
+        model
+            .rule({{"A", 1}},
+                  {model.module("A", {by_weight ? x : call(Function::ran, {choose(x < number(0), huge, x)})})})
+            .weight = by_weight ? x : number(1);
+        text_after(model, 1);
+    };
+    CHECK_THROWS_WITH(refused(true), Catch::Contains("a weight must be") && Catch::Contains("A(-1)"));
+    CHECK_THROWS_WITH(refused(false), Catch::Contains("finite") && Catch::Contains("A(-1)"));
+}
+
 TEST_CASE("the first module that divides by zero is named, however many are computed at once", "[lsystem]") {
     ModelBuilder model;
     const auto axiom = [&](int zero_of_b, int zero_of_a) {
