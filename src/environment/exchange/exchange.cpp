@@ -69,7 +69,7 @@ void Environment::gather(const WorldView& world) {
         batch.queries = {};
     }
     last_model_ = nullptr;
-    if (!borrow(world)) {
+    if (!gather_alike(world)) {
         for (const PlantView& plant : world.plants) gather(plant, world.step);
         for (Batch& batch : batches_) batch.queries = batch.copies;
     }
@@ -79,8 +79,9 @@ void Environment::gather(const WorldView& world) {
     }
 }
 
-// Where one plant asks nothing but one process, and in its own words, the process reads the questions where they are.
-bool Environment::borrow(const WorldView& world) {
+// Where one plant asks nothing but one process, the process reads the questions where they are or, if its communication
+// changes them, as copies that are made side by side.
+bool Environment::gather_alike(const WorldView& world) {
     const PlantView* only = nullptr;
     for (const PlantView& plant : world.plants) {
         if (!plant.asks || plant.interpretation->queries.empty()) continue;
@@ -93,7 +94,7 @@ bool Environment::borrow(const WorldView& world) {
     if (routed_) return false;
     name_processes(*only);
     const std::optional<std::size_t> process = process_for(first, *only, world.step);
-    if (!process || communications_[*process].changes_queries()) return false;
+    if (!process) return false;
     std::atomic<bool> alike = true;
     for_blocks(queries.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -101,8 +102,15 @@ bool Environment::borrow(const WorldView& world) {
             if (query.process != first.process || !is_sound(query, *process)) alike = false;
         }
     });
-    if (!alike || communications_[*process].rounds_parameters()) return false;
-    batches_[*process].queries = queries;
+    if (!alike) return false;
+    Batch& batch = batches_[*process];
+    batch.queries = queries;
+    if (!communications_[*process].changes_queries() && !communications_[*process].rounds_parameters()) return true;
+    batch.copies.resize(queries.size());
+    for_blocks(queries.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) batch.copies[i] = queries[i];
+    });
+    batch.queries = batch.copies;
     return true;
 }
 
@@ -187,16 +195,20 @@ void Environment::send(std::size_t process) {
     const Communication& communication = communications_[process];
     Batch& batch = batches_[process];
     if (communication.changes_queries()) {
-        for (Query& query : batch.copies) communication.send(query);
+        for_blocks(batch.copies.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) communication.send(batch.copies[i]);
+        });
     }
     if (!communication.rounds_parameters()) return;
     batch.sent.resize(batch.values.size());
-    for (std::size_t i = 0; i < batch.values.size(); ++i) batch.sent[i] = communication.rounded(batch.values[i]);
-    const double* next = batch.sent.data();
-    for (Query& query : batch.copies) {
-        query.parameters = {next, query.parameters.size()};
-        next += query.parameters.size();
-    }
+    for_blocks(batch.copies.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Answer exact = batch.answers[i];
+            double* const sent = batch.sent.data() + (exact.data() - batch.values.data());
+            for (std::size_t k = 0; k < exact.size(); ++k) sent[k] = communication.rounded(exact[k]);
+            batch.copies[i].parameters = {sent, exact.size()};
+        }
+    });
 }
 
 // A module may be written by a rule that `require_answers` has not seen, and a NaN may come out of any expression.
@@ -243,13 +255,15 @@ void Environment::round_answers(std::size_t process) {
     const Communication& communication = communications_[process];
     if (!communication.rounds_parameters()) return;
     Batch& batch = batches_[process];
-    for (std::size_t i = 0; i < batch.queries.size(); ++i) {
-        const std::span<const double> sent = batch.queries[i].parameters;
-        for (std::size_t k = 0; k < sent.size(); ++k) {
-            const double received = communication.rounded(batch.answers[i][k]);
-            if (received != sent[k]) batch.answers[i][k] = received;
+    for_blocks(batch.queries.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::span<const double> sent = batch.queries[i].parameters;
+            for (std::size_t k = 0; k < sent.size(); ++k) {
+                const double received = communication.rounded(batch.answers[i][k]);
+                if (received != sent[k]) batch.answers[i][k] = received;
+            }
         }
-    }
+    });
 }
 
 void Environment::require_finite(std::size_t process, const WorldView& world) const {
