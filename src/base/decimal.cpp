@@ -4,12 +4,14 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 // printf rounds the exact value to the nearest decimal number, halves to even, and reading it rounds that to the
 // nearest double. Both take one operation each where the decimal number is n / 10^k with n and 10^|k| exact doubles.
 namespace espalier {
 namespace {
 
+constexpr double impossible = std::numeric_limits<double>::quiet_NaN();
 constexpr int most_digits = 15;
 constexpr double exact_halves = 1e15;  ///< below it, doubles are multiples of 1/8
 constexpr int greatest_exponent = 22;  ///< 10^22 is the last power that is an exact double
@@ -35,7 +37,7 @@ inline double nearest_whole(double number, int exponent, double near) {
     const auto below = static_cast<std::int64_t>(near);
     const auto floor = static_cast<double>(below);
     const double over = near - floor - 0.5;
-    if (over != 0) return over > 0 ? floor + 1 : floor;
+    if (over != 0) return floor + static_cast<double>(over > 0);  // no branch: it would be as good as random
     const double rest = lost(number, exponent, near);
     if (rest != 0) return rest > 0 ? floor + 1 : floor;
     return below % 2 == 0 ? floor : floor + 1;
@@ -53,22 +55,23 @@ int decimal_exponent(double number) {
 
 }  // namespace
 
-std::optional<double> rounded_to_digits(double number, int digits) {
-    if (number == 0) return number;
+double rounded_to_digits(double number, int digits) {
     const double size = std::abs(number);
-    if (!(size > 1e-20 && size < 1e20) || digits > most_digits) return std::nullopt;
+    const bool is_short = digits <= most_digits && size < powers[static_cast<std::size_t>(digits)];
+    if (is_short && static_cast<double>(static_cast<std::int64_t>(number)) == number) return number;
+    if (!(size > 1e-20 && size < 1e20) || digits > most_digits) return impossible;
     int exponent = digits - 1 - decimal_exponent(size);
-    if (exponent > greatest_exponent) return std::nullopt;
+    if (exponent > greatest_exponent) return impossible;
     double near = scaled(size, exponent);
     // Where the exact value lies on the other side of a power of ten, both exponents lead to that power.
     if (near >= powers[static_cast<std::size_t>(digits)]) near = scaled(size, --exponent);
     return rounded_at(number, exponent, near);
 }
 
-std::optional<double> rounded_to_decimals(double number, int decimals) {
-    if (decimals > greatest_exponent) return std::nullopt;
+double rounded_to_decimals(double number, int decimals) {
+    if (decimals > greatest_exponent) return impossible;
     const double near = scaled(std::abs(number), decimals);
-    if (!(near < exact_halves)) return std::nullopt;
+    if (!(near < exact_halves)) return impossible;
     return rounded_at(number, decimals, near);
 }
 

@@ -47,15 +47,16 @@ TEST_CASE("numbers are rounded to digits and decimals as printing and reading do
     std::size_t rounded = 0, all = 0;
     for (const double number : numbers(GENERATE(1, 2, 3))) {
         for (const int places : {1, 3, 6, 7, 15}) {
-            const auto digits = rounded_to_digits(number, places), decimals = rounded_to_decimals(number, places - 1);
-            if (digits) REQUIRE(bits(*digits) == bits(read(fmt::sprintf("%.*g", places, number))));
-            if (decimals) REQUIRE(bits(*decimals) == bits(read(fmt::sprintf("%.*f", places - 1, number))));
-            rounded += digits.has_value() + decimals.has_value();
+            const double digits = rounded_to_digits(number, places), decimals = rounded_to_decimals(number, places - 1);
+            const bool has_digits = !std::isnan(digits), has_decimals = !std::isnan(decimals);
+            if (has_digits) REQUIRE(bits(digits) == bits(read(fmt::sprintf("%.*g", places, number))));
+            if (has_decimals) REQUIRE(bits(decimals) == bits(read(fmt::sprintf("%.*f", places - 1, number))));
+            rounded += has_digits + has_decimals;
             all += 2;
         }
     }
     CHECK(rounded > 0.8 * static_cast<double>(all));
-    CHECK_FALSE(rounded_to_digits(1e-30, 6));
-    CHECK_FALSE(rounded_to_digits(1, 16));
-    CHECK_FALSE(rounded_to_decimals(1e16, 2));
+    CHECK(std::isnan(rounded_to_digits(1e-30, 6)));
+    CHECK(std::isnan(rounded_to_digits(1.5, 16)));
+    CHECK(std::isnan(rounded_to_decimals(1e16, 2)));
 }

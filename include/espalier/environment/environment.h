@@ -87,7 +87,7 @@ private:
     struct Answering;
 
     void gather(const WorldView& world);
-    bool gather_alike(const WorldView& world);
+    bool borrow(const WorldView& world);
     void gather(const PlantView& plant, int step);
     void name_processes(const PlantView& plant);
     std::optional<std::size_t> process_for(const Query& query, const PlantView& plant, int step) const;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -67,9 +68,8 @@ std::string TurtleFormat::Field::print(double number) const {
 }
 
 double TurtleFormat::Field::round(double number) const {
-    const std::optional<double> rounded =
-        is_fixed ? rounded_to_decimals(number, precision) : rounded_to_digits(number, precision);
-    return (rounded ? *rounded : std::strtod(print(number).c_str(), nullptr)) + 0.0;  // no negative zero
+    const double rounded = is_fixed ? rounded_to_decimals(number, precision) : rounded_to_digits(number, precision);
+    return (std::isnan(rounded) ? std::strtod(print(number).c_str(), nullptr) : rounded) + 0.0;  // no negative zero
 }
 
 TurtleFormat TurtleFormat::read(const std::string& text, const Place& place) {
@@ -117,8 +117,8 @@ Communication::Communication(const Settings& table)
 
 double Communication::rounded(double parameter) const {
     if (digits_ == 0) return parameter;
-    const std::optional<double> rounded = rounded_to_digits(parameter, digits_);
-    return rounded ? *rounded : std::strtod(text_of(parameter).c_str(), nullptr);
+    const double rounded = rounded_to_digits(parameter, digits_);
+    return std::isnan(rounded) ? std::strtod(text_of(parameter).c_str(), nullptr) : rounded;
 }
 
 std::string Communication::text_of(double parameter) const {

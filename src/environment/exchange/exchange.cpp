@@ -69,7 +69,7 @@ void Environment::gather(const WorldView& world) {
         batch.queries = {};
     }
     last_model_ = nullptr;
-    if (!gather_alike(world)) {
+    if (!borrow(world)) {
         for (const PlantView& plant : world.plants) gather(plant, world.step);
         for (Batch& batch : batches_) batch.queries = batch.copies;
     }
@@ -79,9 +79,9 @@ void Environment::gather(const WorldView& world) {
     }
 }
 
-// Where one plant asks nothing but one process, the process reads the questions where they are or, if its communication
-// changes them, as copies that are made side by side.
-bool Environment::gather_alike(const WorldView& world) {
+// Where one plant asks nothing but one process, the process reads the questions where they are, unless its communication
+// changes them.
+bool Environment::borrow(const WorldView& world) {
     const PlantView* only = nullptr;
     for (const PlantView& plant : world.plants) {
         if (!plant.asks || plant.interpretation->queries.empty()) continue;
@@ -103,14 +103,7 @@ bool Environment::gather_alike(const WorldView& world) {
         }
     });
     if (!alike) return false;
-    Batch& batch = batches_[*process];
-    batch.queries = queries;
-    if (!communications_[*process].changes_queries() && !communications_[*process].rounds_parameters()) return true;
-    batch.copies.resize(queries.size());
-    for_blocks(queries.size(), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) batch.copies[i] = queries[i];
-    });
-    batch.queries = batch.copies;
+    batches_[*process].queries = queries;
     return true;
 }
 
@@ -194,21 +187,21 @@ bool Environment::is_routed(const Query& query) const {
 void Environment::send(std::size_t process) {
     const Communication& communication = communications_[process];
     Batch& batch = batches_[process];
-    if (communication.changes_queries()) {
-        for_blocks(batch.copies.size(), [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) communication.send(batch.copies[i]);
-        });
-    }
-    if (!communication.rounds_parameters()) return;
+    if (!communication.changes_queries() && !communication.rounds_parameters()) return;
+    batch.copies.resize(batch.queries.size());
     batch.sent.resize(batch.values.size());
-    for_blocks(batch.copies.size(), [&](std::size_t begin, std::size_t end) {
+    for_blocks(batch.queries.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
+            Query query = batch.queries[i];
+            communication.send(query);
             const Answer exact = batch.answers[i];
             double* const sent = batch.sent.data() + (exact.data() - batch.values.data());
             for (std::size_t k = 0; k < exact.size(); ++k) sent[k] = communication.rounded(exact[k]);
-            batch.copies[i].parameters = {sent, exact.size()};
+            query.parameters = {sent, exact.size()};
+            batch.copies[i] = query;
         }
     });
+    batch.queries = batch.copies;
 }
 
 // A module may be written by a rule that `require_answers` has not seen, and a NaN may come out of any expression.
