@@ -53,7 +53,8 @@ struct CompiledProduction {
     std::vector<CompiledPattern> left, strict, right;  ///< left: nearest first
     Program before, condition, after, successor, weight;
     bool has_condition = false, has_weight = false;
-    std::vector<LetterId> letters;  ///< letters of the successor, padded to whole blocks
+    bool begins_with_blocks = false;  ///< condition and successor run the blocks, which stand nowhere else
+    std::vector<LetterId> letters;    ///< letters of the successor, padded to whole blocks
     std::vector<std::uint16_t> arities;
     Descent descent;
     std::size_t length = 0;
