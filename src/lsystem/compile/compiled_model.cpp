@@ -225,7 +225,8 @@ void SystemCompiler::compile_programs(CompiledProduction& compiled, Blocks block
     if (production.condition) {
         const std::optional<double> known = programs_.fold(*production.condition);
         compiled.has_condition = !known || *known == 0;
-        compiled.condition = programs_.value(*production.condition, apart ? none : before);
+        const bool alone = apart || !is_needed(production.before, *production.condition);
+        compiled.condition = programs_.value(*production.condition, alone ? none : before);
     }
     compiled.has_weight = production.weight.has_value();
     if (production.weight) compiled.weight = programs_.value(*production.weight);

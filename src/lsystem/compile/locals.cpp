@@ -1,8 +1,10 @@
 #include "lsystem/compile/locals.h"
 
+#include "lsystem/programs/constant.h"
 #include "lsystem/programs/functions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace espalier::lsystem {
@@ -193,7 +195,38 @@ void follow(const std::vector<Production>& productions, Follower& follower) {
     }
 }
 
+/// A division by zero, a subscript out of range, or what other functions refuse.
+bool may_fail(const Expression& expression) {
+    using Kind = Expression::Kind;
+    if (expression.kind == Kind::element) return true;
+    if (expression.kind == Kind::call) return !is_pure(expression.function);
+    const bool divides = expression.op == Operator::divide || expression.op == Operator::remainder;
+    if (expression.kind != Kind::apply || !divides) return false;
+    const std::optional<double> divisor = constant_value(expression.operands[1], Arithmetic::double_precision);
+    return !divisor || std::trunc(*divisor) == 0;
+}
+
+bool has_loops(const Block& block) {
+    return std::any_of(block.begin(), block.end(), [](const Statement& statement) {
+        using Kind = Statement::Kind;
+        const bool loops = statement.kind != Kind::expression && statement.kind != Kind::branch;
+        return loops || std::any_of(statement.bodies.begin(), statement.bodies.end(), has_loops);
+    });
+}
+
 }  // namespace
+
+bool is_needed(const Block& block, const Expression& expression) {
+    if (contains(block, may_fail) || has_loops(block)) return true;
+    bool assigned = false;
+    for_each_expression(block, [&](const Expression& one) {
+        if (one.kind != Expression::Kind::assign) return;
+        for_each_expression(expression, [&](const Expression& read) {
+            assigned |= read.kind == one.operands[0].kind && read.index == one.operands[0].index;
+        });
+    });
+    return assigned;
+}
 
 std::optional<std::vector<bool>> find_locals(const LSystem& system) {
     Follower follower(system.globals.size());

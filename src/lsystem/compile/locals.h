@@ -13,4 +13,8 @@ namespace espalier::lsystem {
 /// elements of arrays, take random numbers before their condition, or do what has an order.
 std::optional<std::vector<bool>> find_locals(const LSystem& system);
 
+/// Whether it matters to an expression that a block of such a production has run before it: the block assigns what the
+/// expression reads, or may fail.
+bool is_needed(const Block& block, const Expression& expression);
+
 }  // namespace espalier::lsystem
