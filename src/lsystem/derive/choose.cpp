@@ -378,10 +378,8 @@ void add_to(Batch& batch, const StepInput& input, std::size_t module, const doub
 }
 
 void choose_replacements(const StepInput& input, Scratch& scratch, Chunk& chunk, Machine& machine) {
-    // Replacements have room among those of all chunks; one more is written than counts.
-    const std::size_t room = chunk.begin + static_cast<std::size_t>(&chunk - scratch.chunks.data());
     const auto run = [&](Tests tests) {
-        Chooser(input, chunk, machine, tests, scratch.replacements.data() + room).run(scratch.outcomes.data());
+        Chooser(input, chunk, machine, tests, scratch.replacements.data() + chunk.room).run(scratch.outcomes.data());
     };
     try {
         run(Tests::together);
