@@ -188,6 +188,8 @@ void Environment::send(std::size_t process) {
     const Communication& communication = communications_[process];
     Batch& batch = batches_[process];
     if (!communication.changes_queries() && !communication.rounds_parameters()) return;
+    // Not new memory in every step in which there are more questions.
+    if (batch.copies.capacity() < batch.queries.size()) batch.copies.reserve(2 * batch.queries.size());
     batch.copies.resize(batch.queries.size());
     batch.sent.resize(batch.values.size());
     for_blocks(batch.queries.size(), [&](std::size_t begin, std::size_t end) {
