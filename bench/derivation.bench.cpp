@@ -152,8 +152,7 @@ void honda_tree_plain(benchmark::State& state) {
 }
 BENCHMARK(honda_tree_plain)->UseRealTime();
 
-void stochastic_bush(benchmark::State& state) {
-    ModelBuilder model;
+void make_stochastic_bush(ModelBuilder& model) {
     model.system().seed = number(1);
     model.system().axiom = {model.module("A", {number(1)})};
     const auto branch = [&](double angle, double scale) {
@@ -166,9 +165,55 @@ void stochastic_bush(benchmark::State& state) {
     };
     model.rule({{"A", 1}}, branch(30, 0.7)).weight = number(2);
     model.rule({{"A", 1}}, branch(-30, 0.5)).weight = number(1);
+}
+
+void stochastic_bush(benchmark::State& state) {
+    ModelBuilder model;
+    make_stochastic_bush(model);
     derive(state, model, {.steps = 18, .lineage = true});
 }
 BENCHMARK(stochastic_bush)->Arg(1)->UseRealTime();
+
+/// A bush whose apices have conditions, random numbers and powers: what most parametric models are made of. Variables
+/// that its blocks assign are each module's own.
+void make_bush(ModelBuilder& model, bool blocks) {
+    model.system().axiom = {model.module("A", {number(1)})};
+    const Expression s = formal(0), width = apply(Operator::power, {s, number(0.7)});
+    const Expression angle = number(30) + call(Function::ran, {number(10)});
+    const std::uint32_t w = blocks ? model.add_global("w") : 0, a = blocks ? model.add_global("a") : 0;
+    Production& grows = model.rule(
+        {{"A", 1}}, {model.module("!", {blocks ? global(w) : width}), model.module("F", {s}), model.module("[", {}),
+                     model.module("+", {blocks ? global(a) : angle}),
+                     model.module("A", {s * (number(0.6) + call(Function::ran, {number(0.2)}))}), model.module("]", {}),
+                     model.module("/", {number(137.5)}), model.module("A", {s * number(0.9)})});
+    grows.condition = number(0.002) < s;
+    if (blocks) grows.after = {assign(global(w), width), assign(global(a), angle)};
+    model.rule({{"A", 1}}, {model.module("L", {s})});
+    model.rule({{"F", 1}}, {model.module("F", {s * number(1.05)})}).condition = s < number(100);
+}
+
+void parametric_bush(benchmark::State& state) {
+    ModelBuilder model;
+    make_bush(model, false);
+    derive(state, model, {.steps = 17, .lineage = true});
+}
+BENCHMARK(parametric_bush)->Arg(1)->UseRealTime();
+
+void bush_with_blocks(benchmark::State& state) {
+    ModelBuilder model;
+    make_bush(model, true);
+    derive(state, model, {.steps = 17, .lineage = true});
+}
+BENCHMARK(bush_with_blocks)->Arg(1)->UseRealTime();
+
+/// The stochastic bush with a condition on both productions.
+void stochastic_bush_with_conditions(benchmark::State& state) {
+    ModelBuilder model;
+    make_stochastic_bush(model);
+    for (Production& production : model.system().productions) production.condition = number(0.01) < formal(0);
+    derive(state, model, {.steps = 20, .lineage = true});
+}
+BENCHMARK(stochastic_bush_with_conditions)->Arg(1)->UseRealTime();
 
 /// Bytes held for a whole tree, over what its content takes: 2 a symbol, 8 a parameter, and 8 a module for its lineage.
 void bytes_per_module(benchmark::State& state) {
@@ -248,6 +293,24 @@ const Row bush{"stochastic parametric bush, against the parametric tree",
                Measure::rate,
                Goal::at_least,
                0.5};
+const Row bush_of_all{"bush with conditions, random numbers and powers, against the parametric tree",
+                      "parametric_bush/1/real_time",
+                      "honda_tree/1/real_time",
+                      Measure::rate,
+                      Goal::at_least,
+                      0.3};
+const Row blocks{"the same with variables in blocks, against the same",
+                 "bush_with_blocks/1/real_time",
+                 "honda_tree/1/real_time",
+                 Measure::rate,
+                 Goal::at_least,
+                 0.3};
+const Row conditional{"stochastic bush with conditions, against the parametric tree",
+                      "stochastic_bush_with_conditions/1/real_time",
+                      "honda_tree/1/real_time",
+                      Measure::rate,
+                      Goal::at_least,
+                      0.3};
 const Row bytes{
     "bytes per module, against its content", "bytes_per_module/real_time", "", Measure::value, Goal::at_most, 1.25};
 

@@ -113,30 +113,50 @@ void pairs_of_one_direction(benchmark::State& state) {
 }
 BENCHMARK(pairs_of_one_direction)->UseRealTime();
 
-/// Seconds of the exchanges, and of derivation and interpretation beside them.
-void grow(benchmark::State& state, const char* name, int steps) {
-    SceneOptions options;
-    options.steps = steps;
-    const Scene scene = read_scene(std::string(ESPALIER_SOURCE_DIR "/environments/") + name, options);
+/// Seconds of a scene's exchanges, and of derivation and interpretation beside them.
+std::pair<double, double> grow(const Scene& scene) {
     double exchange = 0, rest = 0;
-    for (auto _ : state) {
-        exchange = rest = 0;
-        World world(scene);
-        world.start();
-        while (!world.at_end()) {
-            world.step();
-            exchange += world.times().exchange;
-            rest += world.times().derive + world.times().interpret;
-        }
+    World world(scene);
+    world.start();
+    while (!world.at_end()) {
+        world.step();
+        exchange += world.times().exchange;
+        rest += world.times().derive + world.times().interpret;
     }
-    state.counters["work"] = exchange;
-    state.counters["yardstick"] = rest;
+    return {exchange, rest};
+}
+
+Scene ulam_scene(const std::vector<std::pair<std::string, std::string>>& overrides) {
+    SceneOptions options;
+    options.overrides = overrides;
+    options.steps = 80;
+    return read_scene(ESPALIER_SOURCE_DIR "/environments/ulam.toml", options);
 }
 
 void ulam(benchmark::State& state) {
-    grow(state, "ulam.toml", 80);
+    const Scene scene = ulam_scene({});
+    std::pair<double, double> seconds;
+    for (auto _ : state) seconds = grow(scene);
+    state.counters["work"] = seconds.first;
+    state.counters["yardstick"] = seconds.second;
 }
 BENCHMARK(ulam)->UseRealTime();
+
+/// With the questions and answers of an environment file: numbers as text carries them.
+void ulam_in_digits(benchmark::State& state) {
+    const Scene scene = ulam_scene({});
+    const Scene in_digits = ulam_scene({{"environment.collisions.digits", "6"},
+                                        {"environment.collisions.following_module", "false"},
+                                        {"environment.collisions.turtle", "{ position = 'P: %f %f %f' }"}});
+    double exact = 0, rounded = 0;
+    for (auto _ : state) {
+        exact = grow(scene).first;
+        rounded = grow(in_digits).first;
+    }
+    state.counters["work"] = rounded;
+    state.counters["yardstick"] = exact;
+}
+BENCHMARK(ulam_in_digits)->UseRealTime();
 
 /// A tree of 25,000 points and 40 iterations: what the process does in all steps, beside asking every node for every
 /// point. Every step's nodes are those of the colony.
@@ -232,6 +252,12 @@ const Row cells{"Ulam's cells for 80 steps: their exchanges, against derivation 
                 Measure::counters,
                 Goal::at_most,
                 0.6};
+const Row digits{"Ulam's cells: exchanges with the numbers of an environment file, against those of a scene",
+                 "ulam_in_digits/real_time",
+                 "",
+                 Measure::counters,
+                 Goal::at_most,
+                 2};
 const Row chords{"light of 5,000 balls from 128 directions by chords, against all pairs for one direction",
                  "light_by_chords/real_time",
                  "pairs_of_one_direction/real_time",

@@ -3,8 +3,12 @@
 #include "espalier/base/math.h"
 #include "espalier/base/stop.h"
 
+#include "base/math_columns.h"
+
 #include <Random123/philox.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -32,7 +36,7 @@ constexpr std::size_t samples_at_once = 8;
 /// Philox 4x32-10 (Salmon et al. 2011, section 3.3) of eight owners: counter words in the lower halves of 64-bit
 /// lanes, whose upper halves the multiplication does not see.
 __attribute__((target("avx2"))) void sample_eight(std::uint64_t key, std::uint32_t step, const std::uint64_t* owners,
-                                                  std::uint64_t* samples) {
+                                                  const std::uint32_t* numbers, std::uint64_t* samples) {
     constexpr int vectors = 2, lanes = 4, rounds = 10;
     const __m256i multiplier0 = _mm256_set1_epi64x(PHILOX_M4x32_0), multiplier1 = _mm256_set1_epi64x(PHILOX_M4x32_1);
     __m256i counter[4][vectors];
@@ -40,7 +44,8 @@ __attribute__((target("avx2"))) void sample_eight(std::uint64_t key, std::uint32
         counter[0][v] = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(owners + lanes * v));
         counter[1][v] = _mm256_srli_epi64(counter[0][v], 32);
         counter[2][v] = _mm256_set1_epi64x(step);
-        counter[3][v] = _mm256_setzero_si256();
+        const auto* const number = reinterpret_cast<const __m128i*>(numbers + lanes * v);
+        counter[3][v] = _mm256_cvtepu32_epi64(_mm_loadu_si128(number));
     }
     auto key0 = static_cast<std::uint32_t>(key), key1 = static_cast<std::uint32_t>(key >> 32);
     for (int round = 0; round < rounds; ++round, key0 += PHILOX_W32_0, key1 += PHILOX_W32_1) {
@@ -73,17 +78,26 @@ double RandomSamples::uniform() {
     return static_cast<double>(sample_bits(key_.value(), owner_, step_, next_++)) * 0x1p-53;
 }
 
-void first_samples(RandomKey key, std::uint32_t step, std::span<const std::uint64_t> owners, std::uint64_t* samples) {
+void samples_of(RandomKey key, std::uint32_t step, std::span<const std::uint64_t> owners, const std::uint32_t* numbers,
+                std::uint64_t* samples) {
     std::size_t k = 0;
 #ifdef ESPALIER_WIDE_SAMPLES
     static const bool wide = __builtin_cpu_supports("avx2");
     if (wide) {
         for (; k + samples_at_once <= owners.size(); k += samples_at_once) {
-            sample_eight(key.value(), step, owners.data() + k, samples + k);
+            sample_eight(key.value(), step, owners.data() + k, numbers + k, samples + k);
         }
     }
 #endif
-    for (; k < owners.size(); ++k) samples[k] = sample_bits(key.value(), owners[k], step, 0);
+    for (; k < owners.size(); ++k) samples[k] = sample_bits(key.value(), owners[k], step, numbers[k]);
+}
+
+void first_samples(RandomKey key, std::uint32_t step, std::span<const std::uint64_t> owners, std::uint64_t* samples) {
+    constexpr std::size_t at_once = 64;
+    static constexpr std::array<std::uint32_t, at_once> first{};
+    for (std::size_t k = 0; k < owners.size(); k += at_once) {
+        samples_of(key, step, owners.subspan(k, std::min(at_once, owners.size() - k)), first.data(), samples + k);
+    }
 }
 
 double RandomSamples::normal() {

@@ -2,13 +2,16 @@
 
 #include "espalier/base/random.h"
 
+#include "base/math_columns.h"
 #include "catch.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <vector>
 
 using namespace espalier;
@@ -137,6 +140,38 @@ TEST_CASE("powers by products and a root are those of the C library to 3.4e-16",
             if (std::abs(exact) > 0x1p53) break;
             REQUIRE(math::pow(base, exponent) == exact);  // whole numbers have whole powers
         }
+    }
+}
+
+TEST_CASE("functions of a column have the bits that they have of each number", "[base][math]") {
+    std::vector<double> x = arguments(-60, 60, 1000), y = arguments(-9, 9, 1000);
+    const double ends[] = {0.0,  -0.0,     0.5,       1.0,          2.0,      3.0,     4.0,
+                           -1.0, infinite, -infinite, not_a_number, greatest, smallest};
+    for (const double a : ends) {
+        for (const double b : ends) x.push_back(a), y.push_back(b);
+    }
+    for (std::uint64_t k = 0; k < 3000; ++k) {
+        x.push_back(std::bit_cast<double>(mix(k, 2)));
+        y.push_back(k % 3 ? 20 * static_cast<double>(mix(k, 3) >> 11) * 0x1p-53 : 0.5 * static_cast<double>(k % 10));
+    }
+    // Of every length, so that none depends on what stands beside it.
+    for (std::size_t begin = 0, count = 0; begin < x.size(); begin += count, count = count % 19 + 1) {
+        count = std::min(count, x.size() - begin);
+        const std::span<const double> some(x.data() + begin, count), exponents(y.data() + begin, count);
+        std::array<double, 20> sines{}, cosines{}, exponentials{}, logarithms{}, powers{};
+        math::sin(some, sines.data());
+        math::cos(some, cosines.data());
+        math::exp(some, exponentials.data());
+        math::log(some, logarithms.data());
+        math::pow(some, exponents, powers.data());
+        for (std::size_t k = 0; k < count; ++k) {
+            REQUIRE(are_same(sines[k], math::sin(some[k])));
+            REQUIRE(are_same(cosines[k], math::cos(some[k])));
+            REQUIRE(are_same(exponentials[k], math::exp(some[k])));
+            REQUIRE(are_same(logarithms[k], math::log(some[k])));
+            REQUIRE(are_same(powers[k], math::pow(some[k], exponents[k])));
+        }
+        REQUIRE(powers[count] == 0);
     }
 }
 

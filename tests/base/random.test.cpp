@@ -1,5 +1,6 @@
 #include "espalier/base/random.h"
 
+#include "base/math_columns.h"
 #include "catch.h"
 
 #include <Random123/philox.h>
@@ -80,6 +81,12 @@ TEST_CASE("samples of many owners at once are those of each alone", "[base]") {
         first_samples(key, 0xFFFFFFFE, owners, samples.data());
         for (std::size_t k = 0; k < count; ++k) {
             REQUIRE(static_cast<double>(samples[k]) == 0x1p53 * RandomSamples(key, owners[k], 0xFFFFFFFE).uniform());
+        }
+        std::vector<std::uint32_t> numbers(count);
+        for (std::size_t k = 0; k < count; ++k) numbers[k] = 0x80000000 + static_cast<std::uint32_t>(k * k);
+        samples_of(key, 7, owners, numbers.data(), samples.data());
+        for (std::size_t k = 0; k < count; ++k) {
+            REQUIRE(static_cast<double>(samples[k]) == 0x1p53 * RandomSamples(key, owners[k], 7, numbers[k]).uniform());
         }
     }
 }

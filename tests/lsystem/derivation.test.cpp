@@ -201,7 +201,7 @@ TEST_CASE("a string that would outgrow its memory stops before it is made", "[ls
     CHECK(two_passes.find("model.l:1:1") != std::string::npos);
     CHECK(two_passes.find("step 10:") != std::string::npos);
     model.add_global("n");
-    model.system().productions[1].before = {assign(global(2), number(1))};
+    model.system().productions[1].before = {assign(global(2), global(2) + number(1))};
     CHECK(message_of().find("model.l:1:1") != std::string::npos);
 }
 
@@ -243,7 +243,7 @@ TEST_CASE("one thread and two write the same string", "[lsystem]") {
         add_busy_tree(model);
         if (ordered) {
             model.add_global("unused");
-            model.system().productions.back().before = {assign(global(2), number(1))};
+            model.system().productions.back().before = {assign(global(2), global(2) + number(1))};
         }
         if (decomposed) {
             model.system().decomposition.productions.push_back(

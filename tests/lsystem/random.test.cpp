@@ -150,7 +150,7 @@ ModuleString grown_by(const std::string& way, bool lineage = true) {
         model.add(model.make({}, ModelBuilder::patterns("YZ"), {}, model.word("ZY")));
     } else if (way == "ordered") {
         const std::uint32_t count = model.add_global("count");
-        model.rule("Z", "Z").after = {assign(global(count), number(1))};
+        model.rule("Z", "Z").after = {assign(global(count), global(count) + number(1))};
     }
     DerivationSettings settings = with_lineage();
     settings.lineage = lineage;

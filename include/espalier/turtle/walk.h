@@ -303,7 +303,8 @@ private:
     // Kept from walk to walk: angles repeat, and sines are dear.
     double default_angle_ = 0;  // radians
     Rotation default_rotation_;
-    std::array<KnownRotation, 16> known_rotations_;
+    static constexpr int known_bits = 6;  // few angles that a model uses in turn share a place
+    std::array<KnownRotation, 1 << known_bits> known_rotations_;
 };
 
 // --- what the letters of every tree do ------------------------------------------------------------------------------
@@ -352,7 +353,7 @@ inline Rotation Walk::rotation(std::span<const double> parameters) {
     if (parameters.empty()) return default_rotation_;
     const double degrees = parameters[0];
     const std::uint64_t bits = std::bit_cast<std::uint64_t>(degrees);
-    KnownRotation& known = known_rotations_[(bits * 0x9E3779B97F4A7C15u) >> 60];
+    KnownRotation& known = known_rotations_[(bits * 0x9E3779B97F4A7C15u) >> (64 - known_bits)];
     return known.degrees == degrees ? known.rotation : learn(known, degrees);
 }
 

@@ -1,9 +1,12 @@
 #include "environment/exchange/communication.h"
 
+#include "base/decimal.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -14,37 +17,6 @@ constexpr int widest = 99;
 
 bool is_digit(char c) {
     return c >= '0' && c <= '9';
-}
-
-// One conversion from its % on; `at` is left behind it. Only what prints a double, and no wider than a buffer.
-std::string conversion(const std::string& text, std::size_t& at, const Place& place) {
-    std::string field = "%";
-    const auto take_number = [&] {
-        std::string digits;
-        while (at < text.size() && is_digit(text[at])) digits += text[at++];
-        if (digits.size() > 2) {
-            throw UserError(place, fmt::format("a number in this format may be at most {} wide: {}", widest, text));
-        }
-        field += digits;
-    };
-    while (at < text.size() && std::string("-+ 0#").find(text[at]) != std::string::npos) field += text[at++];
-    take_number();
-    if (at < text.size() && text[at] == '.') {
-        field += text[at++];
-        take_number();
-    }
-    while (at < text.size() && (text[at] == 'l' || text[at] == 'L')) ++at;
-    if (at == text.size() || std::string("feEgG").find(text[at]) == std::string::npos) {
-        throw UserError(place, fmt::format("only %f, %e and %g print a coordinate, as in '%.4f %.4f %.4f': {}", text));
-    }
-    field += text[at++];
-    return field;
-}
-
-std::string printed(const std::string& field, double number) {
-    char text[512];  // the largest double has 309 digits, before at most 99 decimals
-    std::snprintf(text, sizeof text, field.c_str(), number);
-    return text;
 }
 
 void round(std::optional<TurtleFormat> const& format, glm::dvec3& vector) {
@@ -59,6 +31,47 @@ std::optional<TurtleFormat> read_format(const Settings& table, const char* key) 
 
 }  // namespace
 
+// `at` is left behind it. Only what prints a double, and no wider than a buffer.
+TurtleFormat::Field TurtleFormat::read_field(const std::string& text, std::size_t& at, const Place& place) {
+    Field field{"%"};
+    const auto take_number = [&] {
+        std::string digits;
+        while (at < text.size() && is_digit(text[at])) digits += text[at++];
+        if (digits.size() > 2) {
+            throw UserError(place, fmt::format("a number in this format may be at most {} wide: {}", widest, text));
+        }
+        field.text += digits;
+        return digits.empty() ? 0 : std::stoi(digits);
+    };
+    while (at < text.size() && std::string("-+ 0#").find(text[at]) != std::string::npos) field.text += text[at++];
+    take_number();
+    if (at < text.size() && text[at] == '.') {
+        field.text += text[at++];
+        field.precision = take_number();
+    }
+    while (at < text.size() && (text[at] == 'l' || text[at] == 'L')) ++at;
+    if (at == text.size() || std::string("feEgG").find(text[at]) == std::string::npos) {
+        throw UserError(place, fmt::format("only %f, %e and %g print a coordinate, as in '%.4f %.4f %.4f': {}", text));
+    }
+    field.is_fixed = text[at] == 'f';
+    // %e has one digit more, and %g at least one.
+    if (!field.is_fixed)
+        field.precision = text[at] == 'e' || text[at] == 'E' ? field.precision + 1 : std::max(field.precision, 1);
+    field.text += text[at++];
+    return field;
+}
+
+std::string TurtleFormat::Field::print(double number) const {
+    char printed[512];  // the largest double has 309 digits, before at most 99 decimals
+    std::snprintf(printed, sizeof printed, text.c_str(), number);
+    return printed;
+}
+
+double TurtleFormat::Field::round(double number) const {
+    const double rounded = is_fixed ? rounded_to_decimals(number, precision) : rounded_to_digits(number, precision);
+    return (std::isnan(rounded) ? std::strtod(print(number).c_str(), nullptr) : rounded) + 0.0;  // no negative zero
+}
+
 TurtleFormat TurtleFormat::read(const std::string& text, const Place& place) {
     TurtleFormat format;
     for (std::size_t at = 0; at < text.size();) {
@@ -70,7 +83,7 @@ TurtleFormat TurtleFormat::read(const std::string& text, const Place& place) {
             continue;
         }
         if (format.fields_.size() == 3) throw UserError(place, fmt::format("more than three numbers: {}", text));
-        format.fields_.push_back(conversion(text, at, place));
+        format.fields_.push_back(read_field(text, at, place));
         format.between_.emplace_back();
     }
     return format;
@@ -78,15 +91,14 @@ TurtleFormat TurtleFormat::read(const std::string& text, const Place& place) {
 
 void TurtleFormat::round(std::span<double> numbers) const {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-        // No negative zero.
-        numbers[i] = i < fields_.size() ? std::strtod(printed(fields_[i], numbers[i]).c_str(), nullptr) + 0.0 : 0;
+        numbers[i] = i < fields_.size() ? fields_[i].round(numbers[i]) : 0;
     }
 }
 
 std::string TurtleFormat::print(std::span<const double> numbers) const {
     std::string text = between_[0];
     for (std::size_t i = 0; i < fields_.size(); ++i) {
-        text += printed(fields_[i], i < numbers.size() ? numbers[i] : 0) + between_[i + 1];
+        text += fields_[i].print(i < numbers.size() ? numbers[i] : 0) + between_[i + 1];
     }
     return text;
 }
@@ -104,7 +116,9 @@ Communication::Communication(const Settings& table)
 }
 
 double Communication::rounded(double parameter) const {
-    return std::strtod(text_of(parameter).c_str(), nullptr);
+    if (digits_ == 0) return parameter;
+    const double rounded = rounded_to_digits(parameter, digits_);
+    return std::isnan(rounded) ? std::strtod(text_of(parameter).c_str(), nullptr) : rounded;
 }
 
 std::string Communication::text_of(double parameter) const {

@@ -25,7 +25,18 @@ public:
     std::string print(std::span<const double> numbers) const;
 
 private:
-    std::vector<std::string> fields_;
+    /// One conversion.
+    struct Field {
+        std::string text;       ///< from its % on
+        bool is_fixed = false;  ///< %f: so many decimals; else significant digits
+        int precision = 6;
+
+        std::string print(double number) const;
+        double round(double number) const;
+    };
+    static Field read_field(const std::string& text, std::size_t& at, const Place& place);
+
+    std::vector<Field> fields_;
     std::vector<std::string> between_{""};  ///< the text before each field, and after the last
 };
 

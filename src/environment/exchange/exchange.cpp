@@ -79,7 +79,8 @@ void Environment::gather(const WorldView& world) {
     }
 }
 
-// Where one plant asks nothing but one process, and in its own words, the process reads the questions where they are.
+// Where one plant asks nothing but one process, the process reads the questions where they are, unless its communication
+// changes them.
 bool Environment::borrow(const WorldView& world) {
     const PlantView* only = nullptr;
     for (const PlantView& plant : world.plants) {
@@ -93,7 +94,7 @@ bool Environment::borrow(const WorldView& world) {
     if (routed_) return false;
     name_processes(*only);
     const std::optional<std::size_t> process = process_for(first, *only, world.step);
-    if (!process || communications_[*process].changes_queries()) return false;
+    if (!process) return false;
     std::atomic<bool> alike = true;
     for_blocks(queries.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -101,7 +102,7 @@ bool Environment::borrow(const WorldView& world) {
             if (query.process != first.process || !is_sound(query, *process)) alike = false;
         }
     });
-    if (!alike || communications_[*process].rounds_parameters()) return false;
+    if (!alike) return false;
     batches_[*process].queries = queries;
     return true;
 }
@@ -191,17 +192,23 @@ bool Environment::is_routed(const Query& query) const {
 void Environment::send(std::size_t process) {
     const Communication& communication = communications_[process];
     Batch& batch = batches_[process];
-    if (communication.changes_queries()) {
-        for (Query& query : batch.copies) communication.send(query);
-    }
-    if (!communication.rounds_parameters()) return;
+    if (!communication.changes_queries() && !communication.rounds_parameters()) return;
+    // Not new memory in every step in which there are more questions.
+    if (batch.copies.capacity() < batch.queries.size()) batch.copies.reserve(2 * batch.queries.size());
+    batch.copies.resize(batch.queries.size());
     batch.sent.resize(batch.values.size());
-    for (std::size_t i = 0; i < batch.values.size(); ++i) batch.sent[i] = communication.rounded(batch.values[i]);
-    const double* next = batch.sent.data();
-    for (Query& query : batch.copies) {
-        query.parameters = {next, query.parameters.size()};
-        next += query.parameters.size();
-    }
+    for_blocks(batch.queries.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            Query query = batch.queries[i];
+            communication.send(query);
+            const Answer exact = batch.answers[i];
+            double* const sent = batch.sent.data() + (exact.data() - batch.values.data());
+            for (std::size_t k = 0; k < exact.size(); ++k) sent[k] = communication.rounded(exact[k]);
+            query.parameters = {sent, exact.size()};
+            batch.copies[i] = query;
+        }
+    });
+    batch.queries = batch.copies;
 }
 
 // A module may be written by a rule that `require_answers` has not seen, and a NaN may come out of any expression.
@@ -248,13 +255,15 @@ void Environment::round_answers(std::size_t process) {
     const Communication& communication = communications_[process];
     if (!communication.rounds_parameters()) return;
     Batch& batch = batches_[process];
-    for (std::size_t i = 0; i < batch.queries.size(); ++i) {
-        const std::span<const double> sent = batch.queries[i].parameters;
-        for (std::size_t k = 0; k < sent.size(); ++k) {
-            const double received = communication.rounded(batch.answers[i][k]);
-            if (received != sent[k]) batch.answers[i][k] = received;
+    for_blocks(batch.queries.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::span<const double> sent = batch.queries[i].parameters;
+            for (std::size_t k = 0; k < sent.size(); ++k) {
+                const double received = communication.rounded(batch.answers[i][k]);
+                if (received != sent[k]) batch.answers[i][k] = received;
+            }
         }
-    }
+    });
 }
 
 void Environment::require_finite(std::size_t process, const WorldView& world) const {

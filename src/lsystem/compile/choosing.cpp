@@ -56,6 +56,7 @@ private:
     bool possible(const CompiledProduction& production, std::uint32_t left, std::uint32_t right) const;
     bool in_place(const CompiledProduction& production) const;
     bool certain(const CompiledProduction& production) const;
+    bool is_tested(const CompiledProduction& production) const;
     bool wants_positions() const;
     bool sees_both_at_once() const;
 
@@ -176,6 +177,13 @@ bool ChoosingCompiler::certain(const CompiledProduction& production) const {
     return in_place(production) && production.before.empty() && !production.has_condition;
 }
 
+/// True if what decides can be evaluated for many modules at once.
+bool ChoosingCompiler::is_tested(const CompiledProduction& production) const {
+    if (!in_place(production) || !production.before.empty()) return false;
+    const bool weighed = !rules_.stochastic || !production.has_weight || production.weighs;
+    return weighed && (!production.has_condition || production.tests);
+}
+
 Outcome ChoosingCompiler::outcome(LetterId letter, std::uint32_t left, std::uint32_t right) {
     Productions candidates;
     bool all_certain = true, all_tested = true, all_spelled = !rules_.stochastic;
@@ -184,18 +192,19 @@ Outcome ChoosingCompiler::outcome(LetterId letter, std::uint32_t left, std::uint
         if (!possible(production, left, right)) continue;
         candidates.push_back(rules_.candidates[k]);
         all_certain &= certain(production);
-        all_tested &= certain(production) || (in_place(production) && production.before.empty() && production.tests);
+        all_tested &= is_tested(production);
         all_spelled &= production.context_free() && production.before.empty() && !production.has_condition;
         if (!rules_.stochastic && certain(production)) break;
     }
     if (candidates.empty()) return {};
+    const Outcome::Way way = all_tested && !rules_.several_strict ? Outcome::Way::tested : Outcome::Way::matched;
     if (rules_.stochastic) {
         const std::optional<Outcome> pool = all_certain ? sampled(candidates) : std::nullopt;
-        return pool ? *pool : tried(candidates, Outcome::Way::matched);
+        return pool ? *pool : tried(candidates, way);
     }
     if (certain(rules_.productions[candidates[0]])) return {Outcome::Way::known, choosing_.ranks[candidates[0]]};
     if (all_spelled) return tried(candidates, Outcome::Way::spelled);
-    return tried(candidates, all_tested && !rules_.several_strict ? Outcome::Way::tested : Outcome::Way::matched);
+    return tried(candidates, way);
 }
 
 Outcome ChoosingCompiler::tried(const Productions& candidates, Outcome::Way way) {

@@ -19,7 +19,8 @@ struct Outcome {
         sampled,  ///< one of pool `index`, by a random number
         matched,  ///< by trying the candidates `index`
         spelled,  ///< the first of the candidates `index` whose strict predecessor stands there
-        tested,   ///< by the conditions of the candidates `index`, which can be evaluated for many modules at once
+        tested,   ///< by the conditions of the candidates `index`, and by their weights if the model is stochastic,
+                  ///< which can be evaluated for many modules at once
     };
     Way way = Way::known;
     std::uint32_t index = 0;

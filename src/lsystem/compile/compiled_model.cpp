@@ -3,6 +3,7 @@
 #include "espalier/base/stop.h"
 
 #include "base/excerpt.h"
+#include "lsystem/compile/locals.h"
 #include "lsystem/programs/limits.h"
 
 #include <fmt/format.h>
@@ -43,7 +44,8 @@ public:
     SystemCompiler(const Model& model, std::size_t index)
         : model_(&model),
           system_(model.systems[index]),
-          programs_(system_, index > 0, model.arithmetic),
+          locals_(model.systems.size() == 1 ? find_locals(system_) : std::nullopt),
+          programs_(system_, index > 0, model.arithmetic, locals_),
           compiled_(std::make_unique<CompiledSystem>()) {
         compiled_->source = model_;
         compiled_->system = &system_;
@@ -55,9 +57,11 @@ public:
 private:
     void compile_arrays();
     void compile_blocks();
-    CompiledRules compile_rules(const std::vector<Production>& productions, bool stochastic);
+    enum class Blocks { apart, with_values };
+    CompiledRules compile_rules(const std::vector<Production>& productions, bool stochastic, Blocks blocks);
     void compile_depth(const RuleSet& source, CompiledRules& rules);
-    CompiledProduction compile_production(const Production& production);
+    CompiledProduction compile_production(const Production& production, Blocks blocks);
+    void compile_programs(CompiledProduction& production, Blocks blocks);
     std::vector<CompiledPattern> patterns(const std::vector<ModulePattern>& source);
     void descend(CompiledProduction& production) const;
     void find_lanes(CompiledProduction& production);
@@ -74,6 +78,7 @@ private:
 
     const Model* model_;
     const LSystem& system_;
+    const std::optional<std::vector<bool>> locals_;
     ProgramCompiler programs_;
     std::unique_ptr<CompiledSystem> compiled_;
 };
@@ -81,18 +86,20 @@ private:
 std::unique_ptr<CompiledSystem> SystemCompiler::compile() {
     compile_arrays();
     compile_blocks();
-    compiled_->rules = compile_rules(system_.productions, system_.seed.has_value());
+    const Blocks blocks = locals_ ? Blocks::with_values : Blocks::apart;
+    compiled_->rules = compile_rules(system_.productions, system_.seed.has_value(), blocks);
     const auto weighted = [](const RuleSet& rules) {
         return std::any_of(rules.productions.begin(), rules.productions.end(),
                            [](const Production& production) { return production.weight.has_value(); });
     };
     // Decomposition takes the first production that applies, whatever the weights (cpfg).
-    compiled_->decomposition = compile_rules(system_.decomposition.productions, false);
+    compiled_->decomposition = compile_rules(system_.decomposition.productions, false, blocks);
     compile_depth(system_.decomposition, compiled_->decomposition);
     for (CompiledProduction& production : compiled_->rules.productions) {
         production.decomposes = compiled_->decomposition.follow(production);
     }
-    compiled_->homomorphism = compile_rules(system_.homomorphism.productions, weighted(system_.homomorphism));
+    compiled_->homomorphism =
+        compile_rules(system_.homomorphism.productions, weighted(system_.homomorphism), Blocks::apart);
     compile_depth(system_.homomorphism, compiled_->homomorphism);
     find_laid_out(compiled_->homomorphism);
     compiled_->may_cut = writes_cut(*model_) && !compiled_->rules.has(Alphabet::cut);
@@ -152,12 +159,13 @@ void SystemCompiler::compile_blocks() {
     if (system_.seed) compiled_->seed = programs_.value(*system_.seed);
 }
 
-CompiledRules SystemCompiler::compile_rules(const std::vector<Production>& productions, bool stochastic) {
+CompiledRules SystemCompiler::compile_rules(const std::vector<Production>& productions, bool stochastic,
+                                            Blocks blocks) {
     CompiledRules rules;
     rules.stochastic = stochastic;
     for (const Production& production : productions) {
         if (production.strict.empty()) throw UserError(production.place, "a production needs a strict predecessor");
-        rules.productions.push_back(compile_production(production));
+        rules.productions.push_back(compile_production(production, blocks));
         const CompiledProduction& compiled = rules.productions.back();
         for (const Program* program :
              {&compiled.before, &compiled.condition, &compiled.after, &compiled.successor, &compiled.weight}) {
@@ -206,7 +214,27 @@ std::vector<CompiledPattern> SystemCompiler::patterns(const std::vector<ModulePa
     return compiled;
 }
 
-CompiledProduction SystemCompiler::compile_production(const Production& production) {
+/// Blocks that matter to their module alone are computed again with each value that may need them, so that whoever
+/// computes it needs nothing that another has computed.
+void SystemCompiler::compile_programs(CompiledProduction& compiled, Blocks blocks) {
+    const Production& production = *compiled.source;
+    const bool apart = blocks == Blocks::apart;
+    const std::vector<const Block*> none, before{&production.before}, all{&production.before, &production.after};
+    compiled.before = programs_.block(apart ? production.before : Block());
+    compiled.after = programs_.block(apart ? production.after : Block());
+    if (production.condition) {
+        const std::optional<double> known = programs_.fold(*production.condition);
+        compiled.has_condition = !known || *known == 0;
+        const bool alone = apart || !is_needed(production.before, *production.condition);
+        compiled.condition = programs_.value(*production.condition, alone ? none : before);
+    }
+    compiled.has_weight = production.weight.has_value();
+    if (production.weight) compiled.weight = programs_.value(*production.weight);
+    compiled.successor = programs_.arguments(production.successor, apart ? none : all);
+    compiled.begins_with_blocks = !apart && !(production.before.empty() && production.after.empty());
+}
+
+CompiledProduction SystemCompiler::compile_production(const Production& production, Blocks blocks) {
     CompiledProduction compiled;
     compiled.source = &production;
     compiled.left = patterns(production.left);
@@ -214,16 +242,7 @@ CompiledProduction SystemCompiler::compile_production(const Production& producti
     compiled.strict = patterns(production.strict);
     compiled.right = patterns(production.right);
     compiled_->formals = std::max(compiled_->formals, static_cast<std::uint32_t>(production.formals.size()));
-    compiled.before = programs_.block(production.before);
-    compiled.after = programs_.block(production.after);
-    if (production.condition) {
-        const std::optional<double> known = programs_.fold(*production.condition);
-        compiled.has_condition = !known || *known == 0;
-        compiled.condition = programs_.value(*production.condition);
-    }
-    compiled.has_weight = production.weight.has_value();
-    if (production.weight) compiled.weight = programs_.value(*production.weight);
-    compiled.successor = programs_.arguments(production.successor);
+    compile_programs(compiled, blocks);
     compiled.length = production.successor.size();
     compiled.letters.assign(whole_blocks(std::max<std::size_t>(compiled.length, 1), letter_block),
                             Alphabet::open_bracket);
@@ -285,14 +304,18 @@ bool reads_formals_of(const Block& block, const std::vector<CompiledPattern>& pa
 
 void SystemCompiler::find_lanes(CompiledProduction& production) {
     for (const auto* context : {&production.left, &production.right}) {
-        production.reads_context |= reads_formals_of(production.source->after, *context);
+        production.reads_context |=
+            reads_formals_of(production.source->after, *context) ||
+            (production.begins_with_blocks && reads_formals_of(production.source->before, *context));
     }
     std::vector<const Expression*> rest;
     for (const ModuleTemplate& module : production.source->successor) {
         for (const Expression& argument : module.arguments) {
             production.reads_context |=
                 reads_formals_of(argument, production.left) || reads_formals_of(argument, production.right);
-            const std::optional<Lane> found = lane(argument, production.strict);
+            // A block may have changed what formals stand for.
+            const std::optional<Lane> found =
+                production.begins_with_blocks ? std::nullopt : lane(argument, production.strict);
             if (!found) {
                 production.rest_places.push_back(static_cast<std::uint32_t>(production.lanes.sources.size()));
                 rest.push_back(&argument);
@@ -476,8 +499,9 @@ void SystemCompiler::make_columns() {
             return ColumnProgram::make(program, compiled_->constants, compiled_->formals, place);
         };
         if (!production.before.empty()) continue;
-        if (production.has_condition && !production.testing_samples) production.tests = columns(production.condition);
-        if (production.affine || !production.after.empty() || production.writing_samples) continue;
+        if (production.has_condition) production.tests = columns(production.condition);
+        if (production.has_weight && !production.weight.effects.samples) production.weighs = columns(production.weight);
+        if (production.affine || !production.after.empty()) continue;
         production.values = columns(production.rest_places.empty() ? production.successor : production.rest);
         compiled_->computes_columns |= production.values.has_value();
     }

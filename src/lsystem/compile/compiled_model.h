@@ -53,7 +53,8 @@ struct CompiledProduction {
     std::vector<CompiledPattern> left, strict, right;  ///< left: nearest first
     Program before, condition, after, successor, weight;
     bool has_condition = false, has_weight = false;
-    std::vector<LetterId> letters;  ///< letters of the successor, padded to whole blocks
+    bool begins_with_blocks = false;  ///< condition and successor run the blocks, which stand nowhere else
+    std::vector<LetterId> letters;    ///< letters of the successor, padded to whole blocks
     std::vector<std::uint16_t> arities;
     Descent descent;
     std::size_t length = 0;
@@ -65,6 +66,7 @@ struct CompiledProduction {
     std::vector<std::uint32_t> rest_places;
     // For many modules at once, where that is possible.
     std::optional<ColumnProgram> tests;   ///< the condition
+    std::optional<ColumnProgram> weighs;  ///< the weight
     std::optional<ColumnProgram> values;  ///< computes `rest` or, where nothing is a lane, the successor
     bool reads_context = false;           ///< the successor needs parameters of modules in the context
     bool decomposes = false;              ///< what it writes may be decomposed
@@ -108,6 +110,12 @@ struct CompiledRules {
     bool follow(const CompiledProduction& production) const {
         const auto end = production.letters.begin() + static_cast<std::ptrdiff_t>(production.length);
         return std::any_of(production.letters.begin(), end, [&](LetterId letter) { return has(letter); });
+    }
+    /// Choosing a production may take random numbers.
+    bool deciding_samples() const {
+        return stochastic ||
+               std::any_of(productions.begin(), productions.end(),
+                           [](const CompiledProduction& production) { return production.testing_samples; });
     }
     /// A production may replace both of two modules that stand side by side.
     bool joins(LetterId left, LetterId right) const {

@@ -2,8 +2,11 @@
 
 #include "espalier/base/stop.h"
 
+#include "base/math_columns.h"
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <type_traits>
 
@@ -79,7 +82,8 @@ public:
           matcher_(input.system, input.view, machine),
           begin_(replacements),
           end_(replacements),
-          becomes_{chunk.end - chunk.begin, chunk.parameters_end - chunk.parameters_begin, 0} {
+          becomes_{chunk.end - chunk.begin, chunk.parameters_end - chunk.parameters_begin, 0},
+          samples_(input.system.rules.deciding_samples()) {
         matcher_.set_random(input.key, input.step);
     }
 
@@ -95,6 +99,11 @@ private:
     const CompiledProduction* spell(const Candidates& trial, const Replacement& replacement) const;
     void test(std::uint32_t trial, const Replacement& replacement);
     void decide(std::uint32_t trial);
+    using Choices = std::array<LetterId, ColumnProgram::lanes>;
+    bool choose_first(const Candidates& trial, Batch& batch, Choices& taken);
+    bool weigh(const CompiledProduction& production, Batch& batch, double* weights);
+    bool choose_by_weight(const Candidates& trial, Batch& batch, Choices& taken);
+    const double* run(const ColumnProgram& program, Batch& batch);
     void decide_one_by_one(std::uint32_t trial);
     void sample();
     void take(Replacement& replacement, std::uint32_t plan);
@@ -116,8 +125,10 @@ private:
     Machine& machine_;
     Matcher matcher_;
     Replacement *begin_, *end_;
-    Extent becomes_;            ///< sums of differences: wraps around while it is added up
-    std::size_t replaced_ = 0;  ///< modules before this one are replaced together with others before them
+    Extent becomes_;               ///< sums of differences: wraps around while it is added up
+    std::size_t replaced_ = 0;     ///< modules before this one are replaced together with others before them
+    const bool samples_;           ///< what decides may take random numbers
+    std::vector<double> weights_;  ///< of each candidate, for all modules that wait
     StopCheck<64> check_stop_;
 
     // Replacements that wait for their random numbers.
@@ -233,33 +244,90 @@ const CompiledProduction* Chooser::match(const Candidates& trial, const Replacem
 void Chooser::test(std::uint32_t trial, const Replacement& replacement) {
     Batch& batch = machine_.batch(trial);
     add_to(batch, input_, replacement.module, values_of(replacement));
+    if (samples_) {
+        batch.owners[batch.count] = input_.identity(replacement.module);
+        batch.numbers[batch.count] = 0;
+    }
     batch.places[batch.count] = static_cast<std::uint32_t>(&replacement - begin_);
     if (++batch.count == ColumnProgram::lanes) decide(trial);
 }
 
-/// Takes the first candidate whose condition holds, for all modules that wait for it.
+/// Chooses for all modules that wait for the candidates of a trial.
 void Chooser::decide(std::uint32_t trial) {
     Batch& batch = machine_.batch(trial);
     if (batch.count == 0) return;
-    std::array<LetterId, ColumnProgram::lanes> taken{};
-    const auto [begin, end] = choosing_.trials[trial];
-    for (std::uint32_t k = end; k > begin; --k) {
-        const std::uint32_t candidate = choosing_.candidates[k - 1];
-        const CompiledProduction& production = input_.system.rules.productions[candidate];
-        const LetterId choice = choosing_.ranks[candidate];
-        if (!production.has_condition) {
-            taken.fill(choice);
-            continue;
-        }
-        if (!machine_.run(*production.tests, batch)) return decide_one_by_one(trial);
-        const double* const holds = machine_.result(*production.tests, 0);
-        for (std::size_t i = 0; i < batch.count; ++i) taken[i] = holds[i] != 0 ? choice : taken[i];
-    }
+    Choices taken{};
+    const Candidates& candidates = choosing_.trials[trial];
+    const bool decided = input_.system.rules.stochastic ? choose_by_weight(candidates, batch, taken)
+                                                        : choose_first(candidates, batch, taken);
+    if (!decided) return decide_one_by_one(trial);
     for (std::size_t i = 0; i < batch.count; ++i) {
         Replacement& replacement = begin_[batch.places[i]];
         take(replacement, plan_of(replacement, taken[i]));
     }
     batch.count = 0;
+}
+
+/// A value of each module that waits; null if it cannot be computed for one of them.
+const double* Chooser::run(const ColumnProgram& program, Batch& batch) {
+    return machine_.run(program, batch, input_.key, input_.step) ? machine_.result(program, 0) : nullptr;
+}
+
+/// The first candidate whose condition holds.
+bool Chooser::choose_first(const Candidates& trial, Batch& batch, Choices& taken) {
+    for (std::uint32_t k = trial.begin; k < trial.end; ++k) {
+        const std::uint32_t candidate = choosing_.candidates[k];
+        const CompiledProduction& production = input_.system.rules.productions[candidate];
+        const LetterId choice = choosing_.ranks[candidate];
+        const double* const holds = production.has_condition ? run(*production.tests, batch) : nullptr;
+        if (production.has_condition && !holds) return false;
+        for (std::size_t i = 0; i < batch.count; ++i) {
+            taken[i] = taken[i] == 0 && (!holds || holds[i] != 0) ? choice : taken[i];
+        }
+    }
+    return true;
+}
+
+/// The weight of a candidate for each module that waits, 0 where it does not apply. False if one is none.
+bool Chooser::weigh(const CompiledProduction& production, Batch& batch, double* weights) {
+    std::fill_n(weights, batch.count, 1);
+    if (production.has_condition) {
+        const double* const holds = run(*production.tests, batch);
+        if (!holds) return false;
+        for (std::size_t i = 0; i < batch.count; ++i) weights[i] = holds[i] != 0;
+    }
+    if (!production.has_weight) return true;
+    const double* const weighs = run(*production.weighs, batch);
+    if (!weighs) return false;
+    bool sound = true;
+    for (std::size_t i = 0; i < batch.count; ++i) {
+        sound &= weights[i] == 0 || (weighs[i] >= 0 && std::isfinite(weighs[i]));
+        weights[i] = weights[i] != 0 ? weighs[i] : 0;
+    }
+    return sound;
+}
+
+/// One of the candidates that apply, with the sums and differences of Matcher::choose_by_weight.
+bool Chooser::choose_by_weight(const Candidates& trial, Batch& batch, Choices& taken) {
+    weights_.resize((trial.end - trial.begin) * ColumnProgram::lanes);
+    std::array<double, ColumnProgram::lanes> left{};
+    double* weights = weights_.data();
+    for (std::uint32_t k = trial.begin; k < trial.end; ++k, weights += ColumnProgram::lanes) {
+        if (!weigh(input_.system.rules.productions[choosing_.candidates[k]], batch, weights)) return false;
+        for (std::size_t i = 0; i < batch.count; ++i) left[i] += weights[i];
+    }
+    std::array<std::uint64_t, ColumnProgram::lanes> numbers;
+    samples_of(input_.key, input_.step, {batch.owners.data(), batch.count}, batch.numbers.data(), numbers.data());
+    for (std::size_t i = 0; i < batch.count; ++i) left[i] *= static_cast<double>(numbers[i]) * 0x1p-53;
+    weights = weights_.data();
+    for (std::uint32_t k = trial.begin; k < trial.end; ++k, weights += ColumnProgram::lanes) {
+        const LetterId choice = choosing_.ranks[choosing_.candidates[k]];
+        for (std::size_t i = 0; i < batch.count; ++i) {
+            taken[i] = weights[i] != 0 && left[i] >= 0 ? choice : taken[i];
+            left[i] -= weights[i];
+        }
+    }
+    return true;
 }
 
 /// Some condition cannot be tested for all of them, perhaps for none who comes to it.
@@ -310,10 +378,8 @@ void add_to(Batch& batch, const StepInput& input, std::size_t module, const doub
 }
 
 void choose_replacements(const StepInput& input, Scratch& scratch, Chunk& chunk, Machine& machine) {
-    // Replacements have room among those of all chunks; one more is written than counts.
-    const std::size_t room = chunk.begin + static_cast<std::size_t>(&chunk - scratch.chunks.data());
     const auto run = [&](Tests tests) {
-        Chooser(input, chunk, machine, tests, scratch.replacements.data() + room).run(scratch.outcomes.data());
+        Chooser(input, chunk, machine, tests, scratch.replacements.data() + chunk.room).run(scratch.outcomes.data());
     };
     try {
         run(Tests::together);

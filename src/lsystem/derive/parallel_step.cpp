@@ -5,10 +5,16 @@
 namespace espalier::lsystem {
 namespace {
 
-/// Resizes a column whose elements are no longer needed, so that they are not copied to larger memory.
+/// Resizes a column whose elements are no longer needed, so that they are not copied to larger memory. A string that
+/// grows takes new memory every few steps only: what is reserved and not touched costs nothing.
 template <class T>
 void renew(Column<T>& column, std::size_t size) {
+    constexpr std::size_t room = 4;
     column.clear();
+    if (size > column.capacity()) {
+        Column<T>().swap(column);
+        column.reserve(room * size);
+    }
     column.resize(size);
 }
 
@@ -51,7 +57,8 @@ void rewrite_in_parallel(const StepInput& input, Scratch& scratch, Machines& mac
     make_chunks(input, scratch);
     if (!input.system.plans.all_known) {
         renew(scratch.outcomes, input.system.choosing.places() > 1 ? input.from.size() : 0);
-        renew(scratch.replacements, input.from.size() + scratch.chunks.size());
+        if (!scratch.chunks.empty())
+            renew(scratch.replacements, scratch.chunks.back().room + scratch.chunks.back().candidates + 1);
         for_each_chunk(scratch.chunks, machines,
                        [&](Chunk& chunk, Machine& machine) { choose_replacements(input, scratch, chunk, machine); });
     }

@@ -44,10 +44,13 @@ void count_one_by_one(const StepInput& input, Chunk& chunk) {
 void count(const StepInput& input, Chunk& chunk) {
     const Plans& plans = input.system.plans;
     if (plans.all_known) return plans.sizes.at_once > 0 ? count_known(input, chunk) : count_one_by_one(input, chunk);
-    if (input.from.parameters.empty()) return;
-    const std::uint16_t* const arities = input.system.source->alphabet.arities().data();
+    const Lookup* const lookups = plans.lookups.data();
     const LetterId* const letters = input.from.letters.data();
-    for (std::size_t i = chunk.begin; i < chunk.end; ++i) chunk.parameters_end += arities[letters[i]];
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+        const Lookup& letter = lookups[letters[i]];
+        chunk.parameters_end += letter.arity;
+        chunk.candidates += letter.replaced;
+    }
 }
 
 void require_parameters(const StepInput& input, std::size_t parameters) {
@@ -94,8 +97,10 @@ void make_chunks(const StepInput& input, Scratch& scratch) {
         count(input, chunks[0]);
     else
         for_in_parallel(std::size_t{0}, chunks.size(), [&](std::size_t k) { count(input, chunks[k]); });
-    std::size_t parameters = 0;
+    std::size_t parameters = 0, room = 0;
     for (Chunk& chunk : chunks) {
+        chunk.room = room;
+        room += chunk.candidates + 1;  // one more is written than counts
         chunk.parameters_begin = parameters;
         chunk.parameters_end = parameters += chunk.parameters_end;
     }

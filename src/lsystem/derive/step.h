@@ -44,7 +44,9 @@ struct Chunk {
     std::size_t parameters_begin = 0, parameters_end = 0;
     Extent becomes;  ///< what replaces it
     Extent at;       ///< where that begins in the new string
-    /// Where letters alone do not decide: what is replaced.
+    // Where letters alone do not decide: how many modules productions may replace, where these have room among those of
+    // all chunks, and what is replaced.
+    std::size_t candidates = 0, room = 0;
     std::span<const Replacement> replacements;
     bool is_last = false;  ///< behind it columns may have room for whole blocks
     std::string error;

@@ -228,6 +228,10 @@ void Writer::report(const EvaluationError& error, const Cursor& at) const {
 void Writer::wait(const CompiledProduction& production, const LetterId* in, const double* values, double* to) {
     Batch& waiting = machine_.batch(static_cast<std::size_t>(&production - input_.system.rules.productions.data()));
     add_to(waiting, input_, module_at(in), values);
+    if (production.writing_samples) {
+        waiting.owners[waiting.count] = input_.identity(module_at(in));
+        waiting.numbers[waiting.count] = Matcher::first_of_successor;
+    }
     waiting.to[waiting.count] = to;
     waits_ = true;
     if (++waiting.count == ColumnProgram::lanes) settle(production);
@@ -237,7 +241,7 @@ void Writer::wait(const CompiledProduction& production, const LetterId* in, cons
 void Writer::settle(const CompiledProduction& production) {
     Batch& waiting = machine_.batch(static_cast<std::size_t>(&production - input_.system.rules.productions.data()));
     if (waiting.count == 0) return;
-    finite_ &= machine_.run(*production.values, waiting);
+    finite_ &= machine_.run(*production.values, waiting, input_.key, input_.step);
     double difference = 0;  // to themselves
     for (std::size_t r = 0; r < production.values->results(); ++r) {
         const double* const results = machine_.result(*production.values, r);

@@ -1,13 +1,13 @@
 #include "lsystem/programs/column_program.h"
 
-#include "espalier/base/math.h"
-
+#include "base/math_columns.h"
 #include "base/vector_clones.h"
 #include "lsystem/programs/machine.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 namespace espalier::lsystem {
 namespace {
@@ -21,7 +21,10 @@ bool is_jump(Opcode op) {
 /// Whether the instruction at `at` can be run in columns.
 bool runs_in_columns(const Instruction& instruction, std::size_t at) {
     if (is_jump(instruction.op)) return instruction.b > at;
-    if (instruction.op == Opcode::call) return is_pure(instruction.function);
+    if (instruction.op == Opcode::call) {
+        return is_pure(instruction.function) || instruction.function == Function::ran ||
+               instruction.function == Function::nran;
+    }
     return instruction.op == Opcode::load_global ||
            (instruction.op >= Opcode::copy && instruction.op <= Opcode::single);
 }
@@ -55,13 +58,77 @@ template <class Value>
     }
 }
 
+using Values = std::array<double, lanes>;
+
+void put(const Values& values, double* target, const Running& running) {
+    each(target, running, [&](std::size_t k) { return values[k]; });
+}
+
+void power_each(double* columns, std::uint32_t base, std::uint32_t exponent, double* target, const Running& running) {
+    Values powers;
+    math::pow({columns + base * lanes, running.count}, {columns + exponent * lanes, running.count}, powers.data());
+    put(powers, target, running);
+}
+
+/// A pure function of one value or several.
 void call_each(double* columns, const Instruction& i, const Running& running, Arithmetic arithmetic) {
+    double* const target = columns + i.target * lanes;
+    const std::span<const double> a(columns + i.a * lanes, running.count);
+    if (i.function == Function::pow) return power_each(columns, i.a, i.a + 1, target, running);
+    if (i.function == Function::exp || i.function == Function::log) {
+        Values values;
+        i.function == Function::exp ? math::exp(a, values.data()) : math::log(a, values.data());
+        return put(values, target, running);
+    }
     std::vector<double> values(i.count);
     for (std::size_t k = 0; k < running.count; ++k) {
         if (!running.runs(k)) continue;
         for (std::size_t v = 0; v < values.size(); ++v) values[v] = columns[(i.a + v) * lanes + k];
-        columns[i.target * lanes + k] = call(i.function, values, arithmetic);
+        target[k] = call(i.function, values, arithmetic);
     }
+}
+
+/// The next random number in [0, 1) of each module; those that run are one further then.
+void draw(const ColumnSamples& samples, const Running& running, Values& uniform) {
+    std::array<std::uint64_t, lanes> drawn;
+    samples_of(samples.key, samples.step, {samples.owners, running.count}, samples.numbers, drawn.data());
+    for (std::size_t k = 0; k < running.count; ++k) {
+        uniform[k] = static_cast<double>(drawn[k]) * 0x1p-53;
+        samples.numbers[k] += running.runs(k);
+    }
+}
+
+/// Normal deviates as RandomSamples::normal() makes them.
+void draw_normal(const ColumnSamples& samples, const Running& running, Values& deviates) {
+    Values angles;
+    draw(samples, running, deviates);
+    draw(samples, running, angles);
+    for (std::size_t k = 0; k < running.count; ++k) {
+        deviates[k] = 1 - deviates[k];
+        angles[k] *= 2 * std::numbers::pi;
+    }
+    math::log({deviates.data(), running.count}, deviates.data());
+    math::cos({angles.data(), running.count}, angles.data());
+    for (std::size_t k = 0; k < running.count; ++k) deviates[k] = std::sqrt(-2 * deviates[k]) * angles[k];
+}
+
+/// False if an argument is not finite.
+bool sample_each(double* columns, const Instruction& i, const Running& running, const ColumnSamples& samples) {
+    const double* const a = columns + i.a * lanes;
+    const double* const b = i.count > 1 ? a + lanes : a;
+    for (std::size_t k = 0; k < running.count; ++k) {
+        if (running.runs(k) && !(std::isfinite(a[k]) && std::isfinite(b[k]))) return false;
+    }
+    double* const target = columns + i.target * lanes;
+    Values drawn;
+    if (i.function == Function::ran) {
+        draw(samples, running, drawn);
+        each(target, running, [&](std::size_t k) { return a[k] * drawn[k]; });
+    } else {
+        draw_normal(samples, running, drawn);
+        each(target, running, [&](std::size_t k) { return a[k] + b[k] * drawn[k]; });
+    }
+    return true;
 }
 
 /// True if a divisor is zero.
@@ -89,7 +156,7 @@ template <class Jumps>
 /// `goes_on`: for each module, the instruction where it does; null if no module jumps.
 ESPALIER_VECTOR_CLONES
 bool run_code(std::span<const ColumnProgram::Step> steps, double* columns, std::size_t count, double* goes_on,
-              const Variables& variables, Arithmetic arithmetic) {
+              const Variables& variables, Arithmetic arithmetic, const ColumnSamples& samples) {
     static const Place nowhere;
     for (std::size_t n = 0; n < steps.size(); ++n) {
         const Instruction i = steps[n].instruction;
@@ -114,7 +181,7 @@ bool run_code(std::span<const ColumnProgram::Step> steps, double* columns, std::
                 with([](double a, double) { return a == 0 ? 1.0 : 0.0; });
                 break;
             case Opcode::power:
-                with([](double a, double b) { return math::pow(a, b); });
+                power_each(columns, i.a, i.b, target, running);
                 break;
             case Opcode::multiply:
                 with([](double a, double b) { return a * b; });
@@ -159,7 +226,10 @@ bool run_code(std::span<const ColumnProgram::Step> steps, double* columns, std::
                 with([](double a, double) { return stored(a, Arithmetic::cpfg); });
                 break;
             case Opcode::call:
-                call_each(columns, i, running, arithmetic);
+                if (is_pure(i.function))
+                    call_each(columns, i, running, arithmetic);
+                else if (!sample_each(columns, i, running, samples))
+                    return false;
                 break;
             case Opcode::load_global:
                 each(target, running, [value = variables.globals[i.a]](std::size_t) { return value; });
@@ -195,6 +265,7 @@ public:
         if (!is_jump(instruction.op)) meet(instruction.target);
         if (reads_a(instruction.op)) meet(instruction.a);
         if (reads_b(instruction.op)) meet(instruction.b);
+        // Several arguments are temporaries, side by side.
         for (std::uint32_t k = 1; k < instruction.count; ++k) meet(instruction.a + k);
     }
     /// Puts columns in the place of registers.
@@ -227,7 +298,6 @@ std::optional<ColumnProgram> ColumnProgram::make(const Program& program, std::sp
         if (instruction.op == Opcode::end) break;
         const std::size_t at = made.steps_.size();
         if (!runs_in_columns(instruction, at)) return std::nullopt;
-        if (instruction.op == Opcode::call && !columns.is_temporary(instruction.a)) return std::nullopt;
         columns.meet(instruction);
         made.steps_.push_back({instruction, at < jumped_to, may_divide_by_zero(instruction, constants)});
         if (is_jump(instruction.op)) jumped_to = std::max(jumped_to, instruction.b);
@@ -250,7 +320,7 @@ std::optional<ColumnProgram> ColumnProgram::make(const Program& program, std::sp
 }
 
 bool ColumnProgram::run(const Modules& modules, std::size_t count, const Variables& variables, Arithmetic arithmetic,
-                        std::vector<double>& columns) const {
+                        const ColumnSamples& samples, std::vector<double>& columns) const {
     if (columns.size() < (width_ + 1) * lanes) columns.resize((width_ + 1) * lanes);
     double* const to = columns.data();
     double* const goes_on = to + width_ * lanes;
@@ -261,7 +331,7 @@ bool ColumnProgram::run(const Modules& modules, std::size_t count, const Variabl
         const double* const* const values = modules[input.source.whose].data();
         for (std::size_t k = 0; k < count; ++k) column[k] = values[k][input.source.place];
     }
-    return run_code(steps_, to, count, goes_on, variables, arithmetic);
+    return run_code(steps_, to, count, goes_on, variables, arithmetic, samples);
 }
 
 }  // namespace espalier::lsystem

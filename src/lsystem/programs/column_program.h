@@ -2,6 +2,8 @@
 // program has jumped ahead keeps its values until it is there.
 #pragma once
 
+#include "espalier/base/random.h"
+
 #include "lsystem/programs/program.h"
 
 #include <array>
@@ -15,6 +17,14 @@
 namespace espalier::lsystem {
 
 struct Variables;
+
+/// Whose random numbers a program takes.
+struct ColumnSamples {
+    RandomKey key;
+    std::uint32_t step = 0;
+    const std::uint64_t* owners = nullptr;  ///< of each module
+    std::uint32_t* numbers = nullptr;       ///< of each module: that of its next sample
+};
 
 class ColumnProgram {
 public:
@@ -44,10 +54,10 @@ public:
     static std::optional<ColumnProgram> make(const Program& program, std::span<const double> constants,
                                              std::uint32_t formals, const Place& place);
 
-    /// Runs the program for `count` modules. `columns` is memory to work in. False if one of them
-    /// divides by zero where that is an error: running it for each alone says which.
+    /// Runs the program for `count` modules. `columns` is memory to work in. False if one of them divides by zero where
+    /// that is an error, or has no random number: running it for each alone says which.
     bool run(const Modules& modules, std::size_t count, const Variables& variables, Arithmetic arithmetic,
-             std::vector<double>& columns) const;
+             const ColumnSamples& samples, std::vector<double>& columns) const;
     /// The values of a result, one a module, where `run` left them.
     const double* result(std::size_t k, const std::vector<double>& columns) const {
         return columns.data() + std::size_t{results_[k]} * lanes;
@@ -76,8 +86,10 @@ private:
 struct Batch {
     std::size_t count = 0;
     ColumnProgram::Modules modules;
-    std::array<double*, ColumnProgram::lanes> to;            ///< where their successors' parameters begin
-    std::array<std::uint32_t, ColumnProgram::lanes> places;  ///< among what waits
+    std::array<double*, ColumnProgram::lanes> to;             ///< where their successors' parameters begin
+    std::array<std::uint64_t, ColumnProgram::lanes> owners;   ///< whose random numbers are taken, where some are
+    std::array<std::uint32_t, ColumnProgram::lanes> numbers;  ///< numbers of the next ones
+    std::array<std::uint32_t, ColumnProgram::lanes> places;   ///< among what waits
 };
 
 }  // namespace espalier::lsystem

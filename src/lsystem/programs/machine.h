@@ -67,8 +67,10 @@ public:
     double value(std::uint32_t index) const { return registers_[index]; }
     /// Throws EvaluationError.
     void run(const Program& program);
-    bool run(const ColumnProgram& program, const Batch& batch) {
-        return program.run(batch.modules, batch.count, *variables_, arithmetic_, columns_);
+    /// Takes random numbers of a step, and counts on those of the batch.
+    bool run(const ColumnProgram& program, Batch& batch, RandomKey key, std::uint32_t step) {
+        const ColumnSamples samples{key, step, batch.owners.data(), batch.numbers.data()};
+        return program.run(batch.modules, batch.count, *variables_, arithmetic_, samples, columns_);
     }
     const double* result(const ColumnProgram& program, std::size_t k) const { return program.result(k, columns_); }
     /// Modules that wait, by a number that whoever makes them wait chooses.

@@ -15,6 +15,7 @@ namespace {
 constexpr std::uint32_t constant_kind = 0;
 constexpr std::uint32_t formal_kind = 1u << 30;
 constexpr std::uint32_t temporary_kind = 2u << 30;
+constexpr std::uint32_t local_kind = 3u << 30;
 constexpr std::uint32_t kind_mask = 3u << 30;
 
 Opcode opcode(Operator op) {
@@ -71,8 +72,12 @@ bool Program::reads_variables() const {
 }
 
 // The step and the derivation length are everybody's.
-ProgramCompiler::ProgramCompiler(const LSystem& system, bool inner, Arithmetic arithmetic)
-    : system_(system), arithmetic_(arithmetic) {
+ProgramCompiler::ProgramCompiler(const LSystem& system, bool inner, Arithmetic arithmetic,
+                                 const std::optional<std::vector<bool>>& locals)
+    : system_(system), arithmetic_(arithmetic), has_locals_(locals), locals_(system.globals.size()) {
+    for (std::size_t g = 0; locals && g < locals->size(); ++g) {
+        if ((*locals)[g]) locals_[g] = local_count_++;
+    }
     external_.assign(system.globals.size(), false);
     if (!inner) return;
     for (std::size_t g = 0; g < system.globals.size(); ++g) {
@@ -81,10 +86,11 @@ ProgramCompiler::ProgramCompiler(const LSystem& system, bool inner, Arithmetic a
     }
 }
 
-void ProgramCompiler::begin() {
+void ProgramCompiler::begin(const std::vector<const Block*>& blocks) {
     program_ = {};
-    next_temporary_ = 0;
     breaks_.clear();
+    for (const Block* const block : blocks) statements(*block);
+    next_temporary_ = 0;
 }
 
 Program ProgramCompiler::finish(const Place& place) {
@@ -92,22 +98,24 @@ Program ProgramCompiler::finish(const Place& place) {
     return std::move(program_);
 }
 
-Program ProgramCompiler::value(const Expression& expression) {
-    begin();
+Program ProgramCompiler::value(const Expression& expression, const std::vector<const Block*>& blocks) {
+    begin(blocks);
     program_.results.push_back(reg(compile(expression)));
     return finish(expression.place);
 }
 
-Program ProgramCompiler::arguments(const std::vector<ModuleTemplate>& modules) {
+Program ProgramCompiler::arguments(const std::vector<ModuleTemplate>& modules,
+                                   const std::vector<const Block*>& blocks) {
     std::vector<const Expression*> all;
     for (const ModuleTemplate& module : modules) {
         for (const Expression& argument : module.arguments) all.push_back(&argument);
     }
-    return values(all);
+    return values(all, blocks);
 }
 
-Program ProgramCompiler::values(const std::vector<const Expression*>& expressions) {
-    begin();
+Program ProgramCompiler::values(const std::vector<const Expression*>& expressions,
+                                const std::vector<const Block*>& blocks) {
+    begin(blocks);
     for (const Expression* const each : expressions) {
         const bool text = each->kind == Expression::Kind::text;
         const Operand value = text ? Operand{true, double(each->index), 0} : compile(*each);
@@ -161,6 +169,9 @@ ProgramCompiler::Operand ProgramCompiler::compile(const Expression& expression) 
         case Expression::Kind::formal:
             return {false, 0, formal_kind | expression.index};
         case Expression::Kind::global:
+            if (const auto local = locals_.at(expression.index)) {
+                return emit({Opcode::copy, Function::sin, 0, temporary(), local_kind | *local, 0}, expression.place);
+            }
             return emit({external_.at(expression.index) ? Opcode::load_external : Opcode::load_global, Function::sin, 0,
                          temporary(), expression.index, 0},
                         expression.place);
@@ -250,10 +261,14 @@ ProgramCompiler::Operand ProgramCompiler::assign(const Expression& expression) {
 
 void ProgramCompiler::store(const Expression& target, std::uint32_t subscripts, std::uint32_t value,
                             const Place& place) {
-    program_.effects.assigns = true;
-    if (target.kind == Expression::Kind::formal) {
-        emit({Opcode::copy, Function::sin, 0, formal_kind | target.index, value, 0}, place);
-    } else if (target.kind == Expression::Kind::global) {
+    const bool global = target.kind == Expression::Kind::global;
+    const std::optional<std::uint32_t> local = global ? locals_.at(target.index) : std::nullopt;
+    const bool formal = target.kind == Expression::Kind::formal;
+    program_.effects.assigns |= !local && !(formal && has_locals_);
+    if (formal || local) {
+        const std::uint32_t to = formal ? formal_kind | target.index : local_kind | *local;
+        emit({Opcode::copy, Function::sin, 0, to, value, 0}, place);
+    } else if (global) {
         const Opcode op = external_.at(target.index) ? Opcode::store_external : Opcode::store_global;
         emit({op, Function::sin, 0, value, target.index, 0}, place);
     } else if (target.kind == Expression::Kind::element) {
@@ -335,7 +350,7 @@ std::optional<double> ProgramCompiler::fold(const Expression& expression) const 
 }
 
 std::uint32_t ProgramCompiler::register_count(std::uint32_t formals) const {
-    return static_cast<std::uint32_t>(constants().size()) + formals + most_temporaries_ + 1;
+    return static_cast<std::uint32_t>(constants().size()) + formals + local_count_ + most_temporaries_ + 1;
 }
 
 void ProgramCompiler::place_registers(Program& program, std::uint32_t formals) const {
@@ -343,7 +358,10 @@ void ProgramCompiler::place_registers(Program& program, std::uint32_t formals) c
     const auto placed = [&](std::uint32_t& name) {
         const std::uint32_t index = name & ~kind_mask;
         const std::uint32_t kind = name & kind_mask;
-        name = index + (kind == constant_kind ? 0 : kind == formal_kind ? first_formal : first_formal + formals);
+        name = index;
+        if (kind != constant_kind) name += first_formal;
+        if (kind == local_kind || kind == temporary_kind) name += formals;
+        if (kind == temporary_kind) name += local_count_;
     };
     for (Instruction& instruction : program.code) {
         const Opcode op = instruction.op;

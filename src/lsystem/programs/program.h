@@ -60,7 +60,8 @@ inline bool reads_b(Opcode op) {
     return op >= Opcode::power && op <= Opcode::not_equal;
 }
 
-/// Registers: the model's constants, then the formals of the production at hand, then temporaries.
+/// Registers: the model's constants, then the formals of the production at hand, then variables of its own and
+/// temporaries.
 struct Instruction {
     Opcode op = Opcode::end;
     Function function = Function::sin;
@@ -132,15 +133,18 @@ private:
 /// Throws UserError for what cannot be evaluated.
 class ProgramCompiler {
 public:
-    /// `inner`: the L-system stands inside others, whose variables its external ones are.
-    ProgramCompiler(const LSystem& system, bool inner, Arithmetic arithmetic);
+    /// `inner`: the L-system stands inside others, whose variables its external ones are. `locals`: by global, whether
+    /// it is a register; if there are any, parameters that are assigned matter to nobody else.
+    ProgramCompiler(const LSystem& system, bool inner, Arithmetic arithmetic,
+                    const std::optional<std::vector<bool>>& locals);
 
     bool is_external(std::uint32_t global) const { return external_.at(global); }
 
     Program block(const Block& block);
-    Program value(const Expression& expression);
-    Program arguments(const std::vector<ModuleTemplate>& modules);
-    Program values(const std::vector<const Expression*>& expressions);
+    // What is computed behind blocks.
+    Program value(const Expression& expression, const std::vector<const Block*>& blocks = {});
+    Program arguments(const std::vector<ModuleTemplate>& modules, const std::vector<const Block*>& blocks = {});
+    Program values(const std::vector<const Expression*>& expressions, const std::vector<const Block*>& blocks = {});
 
     /// The value of an expression of constants alone.
     std::optional<double> fold(const Expression& expression) const;
@@ -181,13 +185,16 @@ private:
     Operand emit(Instruction instruction, const Place& place);
     std::size_t emit_jump(Opcode op, std::uint32_t tested, const Place& place);
     void land(std::size_t jump) { program_.code[jump].b = static_cast<std::uint32_t>(program_.code.size()); }
-    void begin();
+    void begin(const std::vector<const Block*>& blocks = {});
     Program finish(const Place& place);
     void require_arguments(const Expression& expression) const;
 
     const LSystem& system_;
     Arithmetic arithmetic_;
     std::vector<bool> external_;  ///< by global
+    bool has_locals_;
+    std::vector<std::optional<std::uint32_t>> locals_;  ///< by global: which of the registers for locals
+    std::uint32_t local_count_ = 0;
     ConstantPool pool_;
     Program program_;
     std::uint32_t next_temporary_ = 0;
