@@ -86,6 +86,19 @@ TEST_CASE_METHOD(Launched, "a rank that is killed ends the run, and resume goes 
     CHECK(files("again") == files("alone"));
 }
 
+TEST_CASE_METHOD(Launched, "the script for Slurm begins a run, and goes on with it", "[app][ranks]") {
+    if (!has_ranks()) return;
+    REQUIRE(run("run stand.toml --quiet --output alone").code == 0);
+    const std::string script =
+        "cd '" + path().string() + "' && PATH=\"$(dirname '" ESPALIER_PROGRAM "'):$PATH\" SLURM_JOB_NUM_NODES=2 "
+        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
+        "bash '" ESPALIER_SOURCE_DIR "/docs/run.slurm' stand.toml jobs --quiet >.out 2>.err";
+    const int code = code_of(std::system(script.c_str()));
+    INFO(text_of(path() / ".err"));
+    REQUIRE(code == 0);
+    CHECK(files("jobs") == files("alone"));
+}
+
 TEST_CASE_METHOD(Launched, "all ranks end with the exit code of a mistake, told once", "[app][ranks]") {
     if (!has_ranks()) return;
     const Outcome unknown = launch(2, "run nothing.toml --quiet");
