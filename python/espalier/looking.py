@@ -1,10 +1,13 @@
 """What the program does to models, scenes and runs. Keywords are the options of `espalier COMMAND --help`."""
 
+import os
 import pathlib
 import tempfile
 
+from ._espalier import Error
 from .program import call, call_for_json, folder_for
 from .recorded import Run
+from .scene import toml
 
 
 def render(what, output, **options):
@@ -95,11 +98,17 @@ def sweep(scene, vary, jobs=None, output=None, **options):
     """
     import pandas
 
-    varied = {key: value if isinstance(value, str) else ",".join(map(str, value)) for key, value in vary.items()}
+    if not isinstance(scene, (str, os.PathLike)):
+        raise Error("a sweep takes the file of a scene or a model; vary a scene made in Python in a loop of es.World")
+    varied = {key: value if isinstance(value, str) else ",".join(map(_word, value)) for key, value in vary.items()}
     with tempfile.TemporaryDirectory(prefix="espalier-") as scratch:
         folder = pathlib.Path(output or pathlib.Path(scratch) / "sweep")
         call("sweep", scene, vary=varied, jobs=jobs, output=folder, quiet=True, **options)
         return pandas.read_csv(folder / "sweep.csv")
+
+
+def _word(value):
+    return value if isinstance(value, str) else toml(value)
 
 
 class tree:

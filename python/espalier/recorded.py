@@ -33,6 +33,9 @@ class RecordedInternodes:
     def __dir__(self):
         return [*super().__dir__(), *self._COLUMNS]
 
+    def __repr__(self):
+        return f"{len(self)} internodes"
+
     @property
     def symbols(self):
         """Symbols of the modules, a list of n texts."""
@@ -56,6 +59,9 @@ class RecordedFrame:
     def internodes(self):
         """What the turtles drew as segments."""
         return RecordedInternodes(self._run._reader.frame(self.step))
+
+    def __repr__(self):
+        return f"Frame of step {self.step} of {self._run!r}"
 
     def field(self, name):
         """The recorded field of that name, such as "light"."""

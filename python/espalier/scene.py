@@ -10,7 +10,7 @@ import numpy
 from . import _espalier
 
 
-def _toml(value):
+def toml(value):
     """A number, a text, a list or a dict of these, as a scene file writes it."""
     if isinstance(value, (bool, numpy.bool_)):
         return "true" if value else "false"
@@ -21,14 +21,14 @@ def _toml(value):
     if isinstance(value, (str, os.PathLike)):
         return json.dumps(os.fspath(value), ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, dict):
-        return "{ " + ", ".join(f"{json.dumps(key)} = {_toml(one)}" for key, one in value.items()) + " }"
+        return "{ " + ", ".join(f"{json.dumps(key)} = {toml(one)}" for key, one in value.items()) + " }"
     if isinstance(value, (list, tuple, numpy.ndarray)):
-        return "[" + ", ".join(_toml(one) for one in value) + "]"
+        return "[" + ", ".join(toml(one) for one in value) + "]"
     raise _espalier.Error(f"a setting is a number, a text, a list or a dict, not {type(value).__name__}")
 
 
 def _settings(values):
-    return [(key, _toml(value)) for key, value in (values or {}).items()]
+    return [(key, toml(value)) for key, value in (values or {}).items()]
 
 
 class Model(_espalier.Model):

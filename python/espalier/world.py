@@ -67,6 +67,9 @@ class Internodes:
         """Parameters of the modules by name: parameters["I.3"]."""
         return _Parameters(self._plants)
 
+    def __repr__(self):
+        return f"{len(self)} internodes"
+
 
 class Frame:
     """One step of a world after its exchange: step, time (the scene's unit), plants, internodes, fields."""
@@ -86,6 +89,9 @@ class Frame:
     def field(self, name):
         """The field of that name, such as "light"; raises Error once the world has gone on."""
         return self._frame.field(name)
+
+    def __repr__(self):
+        return f"Frame of step {self.step}: {len(self.plants)} plants, {len(self.internodes)} internodes"
 
     def quantities(self, plant=0):
         """What the processes tell of a plant (by its number) and of the world, as statistics.csv: {"light.mean": ...}.

@@ -135,3 +135,16 @@ def test_models_and_scenes_can_be_pickled():
         assert len(frames) == 3 and frames[-1].internodes.base[0].tolist() == [1, 0, 0]
     course = pickle.loads(pickle.dumps(es.Scene.of(ROOT / "environments" / "course-light.toml", seed=3)))
     assert len(list(es.World(course).run(2))) == 3
+
+
+def test_a_sweep_says_that_it_takes_files_and_knows_flags(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(es.Error, match="takes the file of a scene"):
+        es.sweep(es.Scene(), vary={"R1": [0.8]})
+    (tmp_path / "stem.l").write_text("lsystem: 1\nderivation length: 1\naxiom: F\nF --> FF\nendlsystem\n")
+    (tmp_path / "s.toml").write_text(
+        "[[plant]]\nmodel = 'stem.l'\n[environment.water]\nprocess = 'soil-water'\nvoxel = 1\n"
+        "domain = { lower = [0, 0, 0], upper = [1, 1, 1] }\n"
+    )
+    table = es.sweep("s.toml", vary={"environment.water.depletion": [True, False], "simulation.seed": "1..2"})
+    assert len(table) == 4

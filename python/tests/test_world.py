@@ -172,3 +172,4 @@ def test_things_say_what_they_are_in_a_cell(shoot):
     assert repr(es.process("voxel-shade", voxel=0.5)) == "process('voxel-shade', voxel=0.5)"
     frame = next(es.World(TREES).run(1))
     assert "voxels" in repr(frame.field("light"))
+    assert repr(frame).startswith("Frame of step 0: 2 plants") and "internodes" in repr(frame.internodes)

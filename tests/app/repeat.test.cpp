@@ -167,6 +167,8 @@ TEST_CASE_METHOD(Workplace, "a sweep draws any statistic over what was varied, a
     const Outcome mistaken = run(sweep + "--statistic heigt");
     CHECK(mistaken.code == 1);
     CHECK_THAT(mistaken.err, Contains("there is no quantity 'heigt' (did you mean 'height'?)"));
+    CHECK_THAT(run(sweep + "--statistic xyzzy").err,
+               Contains("there is no quantity 'xyzzy'; there are ") && Contains(", height, ") && Contains("organs"));
     const Outcome drawn = run(sweep + "--statistic height,organs");
     CHECK_THAT(drawn.err, Contains("4 of 4 runs are already complete"));
     if (drawn.code == 2) return;  // nothing can draw here

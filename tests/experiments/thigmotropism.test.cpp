@@ -63,6 +63,16 @@ TEST_CASE("roots grow along stones and past them; those that do not feel stay ab
     }
 }
 
+TEST_CASE("thick roots that grow slowly keep half their diameter from the stones, too", "[thigmotropism]") {
+    for (const std::uint64_t seed : {5, 65}) {
+        const Roots thick = roots(
+            seed, {{"plant.0.define.WIDTH", "0.01"}, {"plant.0.define.RATE", "0.002"}, {"simulation.steps", "90"}});
+        INFO("seed " << seed << ": clearance " << thick.clearance << " m, length " << thick.length << " m");
+        CHECK(thick.clearance >= 0.005 - 1e-9);
+        CHECK(thick.length > 1);
+    }
+}
+
 TEST_CASE("a root that meets a flat stone head on grows along its upper side", "[thigmotropism]") {
     SceneOptions options;
     options.overrides = {

@@ -5,6 +5,7 @@
 #include "base/text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,14 +28,16 @@ std::string quantity_title(const std::string& column) {
 }
 
 void require_quantity(std::span<const PlottedTable> tables, const std::string& quantity) {
-    std::vector<std::string> names;
+    std::set<std::string> names;
     for (const PlottedTable& table : tables) {
         for (const std::string& name : table.table.columns) {
             if (name == quantity) return;
-            if (name != "step" && name != "time" && name != "plant") names.push_back(name);
+            if (name != "step" && name != "time" && name != "plant") names.insert(name);
         }
     }
-    throw UserError(fmt::format("there is no quantity '{}'{}", quantity, did_you_mean(quantity, names)));
+    const std::string meant = did_you_mean(quantity, std::vector<std::string>(names.begin(), names.end()));
+    throw UserError(fmt::format("there is no quantity '{}'{}", quantity,
+                                meant.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : meant));
 }
 
 std::optional<std::size_t> column_of(const RecordedTable& table, const std::string& name) {
