@@ -81,17 +81,18 @@ TEST_CASE_METHOD(Resumed, "light in photons is the same in a run that was killed
         "L(s) --> L(s * 1.02)\nhomomorphism\nL(s) --> { . +(25) f(s / 2) . -(50) f(s / 2) . -(130) f(s / 2) . }\n"
         "endlsystem\n";
     const std::string rest =
-        "periodic = true\nvoxel = 0.1\npaths = 4096\nbands.par = { leaf = [0.1, 0.1] }\nbands.nir = { leaf = [0.4, "
+        "periodic = true\nbands.par = { leaf = [0.1, 0.1] }\nbands.nir = { leaf = [0.4, "
         "0.4] "
         "}\nsky = { latitude = 50, day = 172, clearness = 0.5 }\n[timeline]\norgans = [\"light.absorbed\", "
         "\"light.brightest\"]\n";
     write("leaves.l", leaves);
-    for (const std::string process : {"ray-light", "canopy-light"}) {
+    for (const auto& [process, own] :
+         {std::pair<std::string, std::string>{"ray-light", "paths = 4096\n"}, {"canopy-light", "voxel = 0.1\n"}}) {
         CAPTURE(process);
         write(process + ".toml",
               "[simulation]\ndomain = { lower = [-0.2, 0, -0.2], upper = [0.2, 1, 0.2] }\n[[plant]]\nmodel = "
               "\"leaves.l\"\npositions = [[0, 0, 0], [0.1, 0, 0.05]]\n[environment.light]\nprocess = \"" +
-                  process + "\"\n" + rest);
+                  process + "\"\n" + own + rest);
         const std::string whole = process + "-whole", again = process + "-again";
         REQUIRE(run("run " + process + ".toml --quiet --output " + whole).code == 0);
         const auto has_checkpoint = [&] { return fs::exists(path() / again / "checkpoint"); };

@@ -90,6 +90,16 @@ TEST_CASE_METHOD(EnvironmentFolder, "a process nobody provides is an error that 
     CHECK(message(std::string("\0\xff:\t::\t\n", 8)) != "no error");
 }
 
+TEST_CASE_METHOD(EnvironmentFolder, "a program of cpfg that is missing is an error that names what is near to it",
+                 "[simulation]") {
+    for (const auto& [program, near] : {std::pair{"QuasiMC", "ray-light"}, {"soil", "soil-water"}}) {
+        const std::string text =
+            message("turtle position: %f %f %f\nexecutable: " + std::string(program) + " a.spec\n");
+        CHECK_THAT(text, Contains("plant.e:2") && Contains("in purpose is '" + std::string(near) + "'"));
+    }
+    CHECK_THAT(message("executable: shap plant.spec\n"), !Contains("in purpose"));
+}
+
 TEST_CASE_METHOD(EnvironmentFolder, "a program of one's own is named with its folder", "[simulation]") {
     folder().write("mine", "");
     const EnvironmentFile file = read(

@@ -159,6 +159,18 @@ bool is_process(const std::string& program) {
     return program == "multiple" || process_types().contains(program);
 }
 
+// What answers instead of a program of cpfg that is missing; "" if nothing does.
+std::string near_in_purpose(const std::string& program) {
+    static const std::map<std::string, std::string> near{
+        {"QuasiMC", "ray-light"}, {"MonteCarlo", "ray-light"}, {"radiosity", "ray-light"}, {"soil", "soil-water"}};
+    const auto at = near.find(program);
+    if (at == near.end()) return "";
+    return fmt::format(
+        ". Near to cpfg's {} in purpose is '{}', but its parameters and answers are its own: a TOML file, as "
+        "`executable: {} FILE.toml`",
+        program, at->second, at->second);
+}
+
 // `./mine`, which is no process of Espalier.
 bool is_own_program(const Lines& lines) {
     return lines.command[0].find('/') != std::string::npos && !is_process(program_of(lines));
@@ -274,10 +286,11 @@ private:
             const std::vector<std::string> known = known_programs();
             throw UserError(
                 lines.command_place,
-                fmt::format("there is no environment process '{}'{}; there are {}. A program of your own is named with "
-                            "its folder, as ./{}. With --without-environment the plant grows without answers",
-                            command.program, did_you_mean(command.program, known), fmt::join(known, ", "),
-                            command.program),
+                fmt::format(
+                    "there is no environment process '{}'{}; there are {}{}. A program of your own is named with "
+                    "its folder, as ./{}. With --without-environment the plant grows without answers",
+                    command.program, did_you_mean(command.program, known), fmt::join(known, ", "),
+                    near_in_purpose(command.program), command.program),
                 fmt::format("executable: {}", fmt::join(lines.command, " ")));
         }
         result_.processes.emplace_back(name, table_of(lines, command, named(command, lines, path), path));
