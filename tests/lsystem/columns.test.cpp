@@ -27,8 +27,13 @@ TEST_CASE("conditions and values of many modules at once are those of each alone
         model.system().start = {assign(global(limit), number(40))};
         for (int k = 0; k < 20'000; ++k) model.system().axiom.push_back(model.module("A", {number(k % 97), number(k)}));
         const Expression x = formal(0), y = formal(1);
-        model.rule({{"A", 2}}, {model.module("A", {x * y * number(0.5), call(Function::sin, {x + y})})}).condition =
-            x < global(limit);
+        model
+            .rule({{"A", 2}},
+                  {model.module("A", {x * y * number(0.5),
+                                      call(Function::sin, {x + y}) +
+                                          call(Function::cos, {x * y}) * call(Function::exp, {x * number(-0.1)}) +
+                                          call(Function::log, {x + number(1)}) + call(Function::sqrt, {y})})})
+            .condition = x < global(limit);
         model.rule({{"A", 2}}, {model.module("B", {x * x, y / number(3), y})}).condition = y < x * number(100);
         if (ordered) give_order(model);
         return text_after(model, 2);

@@ -70,16 +70,36 @@ void power_each(double* columns, std::uint32_t base, std::uint32_t exponent, dou
     put(powers, target, running);
 }
 
+/// Functions of one value that are computed for several modules at a time; false for others.
+bool compute(Function function, std::span<const double> a, double* values) {
+    const bool of_angle = function == Function::sin || function == Function::cos;
+    for (std::size_t k = 0; k < a.size(); ++k) values[k] = of_angle ? a[k] * degree : a[k];
+    const std::span<const double> given(values, a.size());
+    switch (function) {
+        case Function::sin:
+            math::sin(given, values);
+            return true;
+        case Function::cos:
+            math::cos(given, values);
+            return true;
+        case Function::exp:
+            math::exp(given, values);
+            return true;
+        case Function::log:
+            math::log(given, values);
+            return true;
+        default:
+            return false;
+    }
+}
+
 /// A pure function of one value or several.
 void call_each(double* columns, const Instruction& i, const Running& running, Arithmetic arithmetic) {
     double* const target = columns + i.target * lanes;
-    const std::span<const double> a(columns + i.a * lanes, running.count);
     if (i.function == Function::pow) return power_each(columns, i.a, i.a + 1, target, running);
-    if (i.function == Function::exp || i.function == Function::log) {
-        Values values;
-        i.function == Function::exp ? math::exp(a, values.data()) : math::log(a, values.data());
-        return put(values, target, running);
-    }
+    Values computed;
+    if (compute(i.function, {columns + i.a * lanes, running.count}, computed.data()))
+        return put(computed, target, running);
     std::vector<double> values(i.count);
     for (std::size_t k = 0; k < running.count; ++k) {
         if (!running.runs(k)) continue;

@@ -8,12 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace espalier::lsystem {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 double at_or(std::span<const double> values, std::size_t index, double fallback) {
     return index < values.size() ? values[index] : fallback;

@@ -5,6 +5,7 @@
 #include "espalier/lsystem/arithmetic.h"
 #include "espalier/lsystem/expression.h"
 
+#include <numbers>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -16,6 +17,9 @@ struct EvaluationError : std::runtime_error {
     EvaluationError(const Place& where, const std::string& message) : std::runtime_error(message), place(where) {}
     Place place;
 };
+
+/// In radians.
+inline constexpr double degree = std::numbers::pi / 180;
 
 /// Fewest and most arguments; most = -1: any number.
 struct Arguments {
