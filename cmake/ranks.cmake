@@ -1,7 +1,7 @@
 # Worlds that several processes grow together: a module, which the program opens when mpiexec or srun started it.
+set(ESPALIER_MPI AUTO CACHE STRING "grow a world on the ranks of MPI: ON, OFF, or AUTO where MPI is found")
 find_package(MPI QUIET COMPONENTS C)
-option(ESPALIER_MPI "grow a world on the ranks of MPI" ${MPI_C_FOUND})
-if(ESPALIER_MPI)
+if(ESPALIER_MPI STREQUAL "ON" OR (ESPALIER_MPI STREQUAL "AUTO" AND MPI_C_FOUND))
   find_package(MPI REQUIRED COMPONENTS C)
   add_library(espalier_ranks MODULE src/app/ranks/mpi_ranks.cpp)
   # Without the bindings of C++ that MPI gave up.
