@@ -162,6 +162,7 @@ void World::step() {
 void World::State::begin_step() {
     if (!spread) return;
     if (std::exchange(is_saved, false)) {
+        gathered = {};
         spread->balance(plants, std::exchange(busy, 0), memory.bytes());
         all_do([&] { memory.check_drawn(plants, step); });
     }
