@@ -273,7 +273,7 @@ const Row voxels{
     "copied_voxels/real_time",
     Measure::time,
     Goal::at_most,
-    25};
+    40};
 const Row pictures{"paths of render --light, 100,000 triangles, against rays of a bare loop over Embree",
                    "paths_of_a_picture/real_time",
                    "rays_of_bare_embree/100000/real_time",
