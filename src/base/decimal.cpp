@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 
 // printf rounds the exact value to the nearest decimal number, halves to even, and reading it rounds that to the
@@ -25,10 +26,24 @@ inline double scaled(double number, int exponent) {
                          : number / powers[static_cast<std::size_t>(-exponent)];
 }
 
-/// The sign of the exact 10^exponent * number less what scaled() made of it.
-double lost(double number, int exponent, double made) {
-    if (exponent >= 0) return std::fma(number, powers[static_cast<std::size_t>(exponent)], -made);
-    return std::fma(-made, powers[static_cast<std::size_t>(-exponent)], number);
+/// The leading half of a number's digits (Veltkamp 1968).
+double leading(double number) {
+    const double large = 134217729 * number;  // 2^27 + 1
+    return large - (large - number);
+}
+
+/// What a product loses when it is rounded, exactly (Dekker 1971).
+double lost(double a, double b, double product) {
+    const double a_leads = leading(a), b_leads = leading(b), a_rest = a - a_leads, b_rest = b - b_leads;
+    return a_leads * b_leads - product + a_leads * b_rest + a_rest * b_leads + a_rest * b_rest;
+}
+
+/// The sign of the exact 10^exponent * number less `made`, what scaled() made of it.
+double sign_of_lost(double number, int exponent, double made) {
+    const double power = powers[static_cast<std::size_t>(std::abs(exponent))];
+    if (exponent >= 0) return lost(number, power, made);
+    const double product = made * power;
+    return number - product - lost(made, power, product);
 }
 
 /// The whole number nearest to the exact 10^exponent * number, which is not negative; `near` is what scaled() made of
@@ -38,7 +53,7 @@ inline double nearest_whole(double number, int exponent, double near) {
     const auto floor = static_cast<double>(below);
     const double over = near - floor - 0.5;
     if (over != 0) return floor + static_cast<double>(over > 0);  // no branch: it would be as good as random
-    const double rest = lost(number, exponent, near);
+    const double rest = sign_of_lost(number, exponent, near);
     if (rest != 0) return rest > 0 ? floor + 1 : floor;
     return below % 2 == 0 ? floor : floor + 1;
 }

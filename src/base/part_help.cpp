@@ -180,7 +180,8 @@ private:
     }
 
     void go_on(std::string_view text) {
-        text_ += " " + std::string(text);
+        text_ += ' ';
+        text_ += text;
         put(text_);
     }
 
@@ -247,7 +248,8 @@ private:
         is_open_ = false;
         const bool goes_on = in_text_;
         std::string& lines = block(Kind::text).text;
-        lines += (goes_on && !lines.empty() ? " " : lines.empty() ? "" : "\n") + std::string(text);
+        if (!lines.empty()) lines += goes_on ? ' ' : '\n';
+        lines += text;
         in_text_ = true;
     }
 
