@@ -217,6 +217,15 @@ TEST_CASE("what modules say to each other, or to who comes after them, has an or
         p.before = {assign(formal(0), number(2))};
     }));
     CHECK(ordered([&](ModelBuilder&, Production& p) { p.after.push_back(run(call(Function::stop, {number(0)}))); }));
+    // Blocks that may fail are run, though their module has no values.
+    const auto without_values = [&](const Expression& value) {
+        return ordered([&](ModelBuilder& model, Production& p) {
+            p.after = {assign(global(t), value)};
+            p.successor = model.word("BB");
+        });
+    };
+    CHECK(without_values(number(1) / x));
+    CHECK_FALSE(without_values(x / number(2)));
 }
 
 TEST_CASE("a weight that is none, and a random number that is not to be had, are named", "[lsystem]") {

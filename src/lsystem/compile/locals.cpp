@@ -165,36 +165,6 @@ bool takes_samples(const Expression& expression) {
     return expression.kind == Expression::Kind::call && samples(expression.function);
 }
 
-/// Whether a production can be applied in any order, though what its block before the condition computes is computed
-/// again for the successor.
-bool is_free(const Production& production, bool stochastic, const std::vector<bool>& locals) {
-    if (is_noticed(production.before, locals) || is_noticed(production.after, locals)) return false;
-    if (contains(production.before, takes_samples) || (stochastic && !production.before.empty())) return false;
-    for (const auto* tested : {&production.condition, &production.weight}) {
-        if (*tested && (is_noticed(**tested, locals) || contains(**tested, assigns))) return false;
-    }
-    for (const ModuleTemplate& module : production.successor) {
-        for (const Expression& argument : module.arguments) {
-            if (is_noticed(argument, locals)) return false;
-        }
-    }
-    return true;
-}
-
-void follow(const std::vector<Production>& productions, Follower& follower) {
-    for (const Production& production : productions) {
-        follower.begin();
-        follower.follow(production.before);
-        follower.follow(production.condition);
-        follower.begin();
-        follower.follow(production.weight);
-        follower.begin();
-        follower.follow(production.before);
-        follower.follow(production.after);
-        follower.follow(production.successor);
-    }
-}
-
 /// A division by zero, a subscript out of range, or what other functions refuse.
 bool may_fail(const Expression& expression) {
     using Kind = Expression::Kind;
@@ -214,10 +184,47 @@ bool has_loops(const Block& block) {
     });
 }
 
+bool may_fail(const Block& block) {
+    return contains(block, static_cast<bool (*)(const Expression&)>(may_fail)) || has_loops(block);
+}
+
+/// Whether a production can be applied in any order, though what its block before the condition computes is computed
+/// again for the successor.
+bool is_free(const Production& production, bool stochastic, const std::vector<bool>& locals) {
+    if (is_noticed(production.before, locals) || is_noticed(production.after, locals)) return false;
+    if (contains(production.before, takes_samples) || (stochastic && !production.before.empty())) return false;
+    for (const auto* tested : {&production.condition, &production.weight}) {
+        if (*tested && (is_noticed(**tested, locals) || contains(**tested, assigns))) return false;
+    }
+    bool computes = false;
+    for (const ModuleTemplate& module : production.successor) {
+        for (const Expression& argument : module.arguments) {
+            if (is_noticed(argument, locals)) return false;
+            computes = true;
+        }
+    }
+    // Without values to compute nobody would run the blocks, and learn of their mistakes.
+    return computes || !(may_fail(production.before) || may_fail(production.after));
+}
+
+void follow(const std::vector<Production>& productions, Follower& follower) {
+    for (const Production& production : productions) {
+        follower.begin();
+        follower.follow(production.before);
+        follower.follow(production.condition);
+        follower.begin();
+        follower.follow(production.weight);
+        follower.begin();
+        follower.follow(production.before);
+        follower.follow(production.after);
+        follower.follow(production.successor);
+    }
+}
+
 }  // namespace
 
 bool is_needed(const Block& block, const Expression& expression) {
-    if (contains(block, may_fail) || has_loops(block)) return true;
+    if (may_fail(block)) return true;
     bool assigned = false;
     for_each_expression(block, [&](const Expression& one) {
         if (one.kind != Expression::Kind::assign) return;
