@@ -1,6 +1,7 @@
 // The program as mpiexec starts it: several processes, one run.
 #include "catch.h"
 #include "program.h"
+#include "recorded_files.h"
 
 #include <filesystem>
 #include <map>
@@ -40,13 +41,7 @@ public:
     }
 
     std::map<std::string, std::string> files(const std::string& folder) const {
-        std::map<std::string, std::string> files;
-        for (const auto& item : fs::recursive_directory_iterator(path() / folder)) {
-            const std::string name = item.path().lexically_relative(path() / folder).string();
-            if (item.is_regular_file() && name != "run.json" && name != "timings.csv")
-                files[name] = text_of(item.path());
-        }
-        return files;
+        return recorded_files(path() / folder);
     }
 };
 
@@ -92,7 +87,9 @@ TEST_CASE_METHOD(Launched, "the script for Slurm begins a run, and goes on with 
     if (!has_ranks()) return;
     REQUIRE(run("run stand.toml --quiet --output alone").code == 0);
     const std::string script =
-        "cd '" + path().string() + "' && PATH=\"$(dirname '" ESPALIER_PROGRAM "'):$PATH\" SLURM_JOB_NUM_NODES=2 "
+        "cd '" + path().string() +
+        "' && PATH=\"$(dirname '" ESPALIER_PROGRAM
+        "'):$PATH\" SLURM_JOB_NUM_NODES=2 "
         "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
         "bash '" ESPALIER_SOURCE_DIR "/docs/run.slurm' stand.toml jobs --quiet >.out 2>.err";
     const int code = code_of(std::system(script.c_str()));

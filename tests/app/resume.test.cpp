@@ -1,9 +1,9 @@
 // Runs that are killed or interrupted, and go on.
 #include "catch.h"
 #include "program.h"
+#include "recorded_files.h"
 
 #include <filesystem>
-#include <set>
 
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
@@ -27,20 +27,13 @@ public:
         REQUIRE(run("run lit.toml --quiet --output whole").code == 0);
     }
 
-    std::set<std::string> files(const std::string& folder) const {
-        std::set<std::string> names;
-        for (const auto& item : fs::recursive_directory_iterator(path() / folder)) {
-            const std::string name = item.path().lexically_relative(path() / folder).string();
-            if (item.is_regular_file() && name != "run.json" && name != "timings.csv") names.insert(name);
-        }
-        return names;
-    }
-
-    void check_same(const std::string& folder, const std::string& whole = "whole") const {
-        CHECK(files(folder) == files(whole));
-        for (const std::string& name : files(whole)) {
+    void check_same(const std::string& folder) const {
+        const auto whole = recorded_files(path() / "whole"), resumed = recorded_files(path() / folder);
+        CHECK(resumed.size() == whole.size());
+        for (const auto& [name, bytes] : whole) {
             INFO(name);
-            CHECK(text_of(path() / folder / name) == text_of(path() / whole / name));
+            REQUIRE(resumed.contains(name));
+            CHECK(resumed.at(name) == bytes);
         }
     }
 };

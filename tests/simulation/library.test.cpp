@@ -2,10 +2,10 @@
 #include "espalier/simulation/simulation.h"
 
 #include "catch.h"
+#include "recorded_files.h"
 #include "temporary_folder.h"
 
 #include <filesystem>
-#include <map>
 #include <thread>
 
 using namespace espalier;
@@ -53,16 +53,6 @@ Scene made_by_program() {
     return scene;
 }
 
-std::map<std::string, std::string> timeline_in(const fs::path& folder) {
-    std::map<std::string, std::string> files;
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        const std::string name = fs::relative(entry.path(), folder).string();
-        if (name == "run.json" || name == "timings.csv" || !entry.is_regular_file()) continue;
-        files[name] = text_of(entry.path());
-    }
-    return files;
-}
-
 /// Counts what it sees.
 class Counter final : public Recorder {
 public:
@@ -86,7 +76,7 @@ TEST_CASE("a scene made by a program grows and records what the same scene in a 
     folder.write("competing.l", competing);
     run(made_by_program(), {.output = folder.path() / "program"});
     run(read_scene_text(as_a_file, "scene.toml", folder.path()), {.output = folder.path() / "file"});
-    auto program = timeline_in(folder.path() / "program"), file = timeline_in(folder.path() / "file");
+    auto program = recorded_files(folder.path() / "program"), file = recorded_files(folder.path() / "file");
     CHECK(program.size() > 10);
     REQUIRE(program.size() == file.size());
     for (const auto& [name, bytes] : program) {
@@ -113,11 +103,11 @@ TEST_CASE("two worlds in two threads write the bytes that they write one after t
         first.join();
         second.join();
         third.join();
-        CHECK(timeline_in(folder.path() / "one") == timeline_in(folder.path() / ("first" + suffix)));
-        CHECK(timeline_in(folder.path() / "two") == timeline_in(folder.path() / ("second" + suffix)));
-        CHECK(timeline_in(folder.path() / "one") == timeline_in(folder.path() / ("third" + suffix)));
+        CHECK(recorded_files(folder.path() / "one") == recorded_files(folder.path() / ("first" + suffix)));
+        CHECK(recorded_files(folder.path() / "two") == recorded_files(folder.path() / ("second" + suffix)));
+        CHECK(recorded_files(folder.path() / "one") == recorded_files(folder.path() / ("third" + suffix)));
     }
-    CHECK(timeline_in(folder.path() / "one") != timeline_in(folder.path() / "two"));
+    CHECK(recorded_files(folder.path() / "one") != recorded_files(folder.path() / "two"));
 }
 
 TEST_CASE("worlds of two threads note what they read each in its own log", "[simulation]") {

@@ -2,6 +2,7 @@
 #include "espalier/simulation/simulation.h"
 
 #include "catch.h"
+#include "recorded_files.h"
 #include "simulation/spread/blocks.h"
 #include "temporary_folder.h"
 #include "thread_ranks.h"
@@ -57,18 +58,8 @@ public:
         run(scene, options);
     }
 
-    std::map<std::string, std::string> files(const std::string& folder) const {
-        std::map<std::string, std::string> files;
-        for (const auto& entry : fs::recursive_directory_iterator(path() / folder)) {
-            const std::string name = entry.path().lexically_relative(path() / folder).string();
-            if (entry.is_regular_file() && name != "run.json" && name != "timings.csv")
-                files[name] = text_of(entry.path());
-        }
-        return files;
-    }
-
     void check_same(const std::string& folder) const {
-        const auto alone = files("alone"), spread = files(folder);
+        const auto alone = recorded_files(path() / "alone"), spread = recorded_files(path() / folder);
         REQUIRE(alone.size() > 10);
         REQUIRE(spread.size() == alone.size());
         for (const auto& [name, bytes] : alone) {
@@ -184,7 +175,7 @@ TEST_CASE_METHOD(Spread, "what fails on one rank ends all with its message", "[s
         "scene.toml", path());
     const std::vector<std::string> errors = run_on(2, described, "failed");
     for (const std::string& error : errors) CHECK_THAT(error, Contains("weak"));
-    CHECK_FALSE(files("failed").empty());  // the frames before are kept
+    CHECK_FALSE(recorded_files(path() / "failed").empty());  // the frames before are kept
 }
 
 TEST_CASE_METHOD(Spread, "a process that says nothing of ranks is refused by all", "[simulation][ranks]") {

@@ -2,6 +2,7 @@
 #include "espalier/simulation/simulation.h"
 
 #include "catch.h"
+#include "recorded_files.h"
 #include "temporary_folder.h"
 
 #include <glm/geometric.hpp>
@@ -75,15 +76,6 @@ bool same(const PlantGeometry& a, const PlantGeometry& b) {
 
 const PlantGeometry& recorded(const World& world, std::size_t plant) {
     return world.frame().plants[plant].interpretation->geometry;
-}
-
-std::map<std::string, std::string> files_of(const std::filesystem::path& folder) {
-    std::map<std::string, std::string> files;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-        const std::string name = std::filesystem::relative(entry.path(), folder).string();
-        if (entry.is_regular_file() && name != "run.json" && name != "timings.csv") files[name] = text_of(entry.path());
-    }
-    return files;
 }
 
 }  // namespace
@@ -165,7 +157,7 @@ TEST_CASE_METHOD(Staged, "plants with stages are recorded alike by one thread an
                                           static_cast<std::size_t>(threads));
         run(scene(stages), {.output = output(std::to_string(threads))});
     }
-    const auto one = files_of(output("1")), two = files_of(output("2"));
+    const auto one = recorded_files(output("1")), two = recorded_files(output("2"));
     CHECK(one.size() > 10);
     CHECK((one == two));
 }
