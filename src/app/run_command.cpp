@@ -206,6 +206,7 @@ int run_here(const RunArguments& arguments, Ranks* ranks) {
     const fs::path output = from_first(ranks, unnamed ? unnamed->path().string() : arguments.output.string());
     const RunResult result = grow(arguments, scene, inputs, output, nullptr, ranks);
     if (is_first(ranks)) print_result(arguments, scene, output, result);
+    if (ranks) ranks->agree();
     return result.interrupted ? exit_code::interrupted : exit_code::done;
 }
 
@@ -227,7 +228,8 @@ int run_behind(RunArguments arguments, Ranks& ranks) {
 }  // namespace
 
 int run_command(const RunArguments& arguments) {
-    const std::unique_ptr<Ranks> ranks = ranks_of_launcher();
+    // Until the program ends: the first rank has told what failed before the launcher sees another one end.
+    static const std::unique_ptr<Ranks> ranks = ranks_of_launcher();
     return is_first(ranks.get()) ? run_here(arguments, ranks.get()) : run_behind(arguments, *ranks);
 }
 

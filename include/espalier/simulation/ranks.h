@@ -21,7 +21,7 @@ public:
     /// Sends to_each[r] to rank r. Returns what each rank sent to this one, by rank. What is sent to oneself is moved.
     virtual std::vector<std::string> trade(std::vector<std::string> to_each) = 0;
 
-    /// From now on an exception is known to all ranks.
+    /// From now on all ranks know how the run ends.
     void agree() { is_agreed_ = true; }
     bool is_agreed() const { return is_agreed_; }
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
-#include <exception>
 #include <mpi.h>
 #include <thread>
 #include <utility>
@@ -31,10 +30,9 @@ public:
         node_.assign(node, static_cast<std::size_t>(length));
     }
 
-    // All ranks come here at the end of a run, and when one fails that tells all others. One that fails alone must not
-    // let them wait.
+    // All ranks come here when the run has ended or failed for all. One that fails alone must not let them wait.
     ~MpiRanks() override {
-        if (std::uncaught_exceptions() > 0 && !is_agreed()) MPI_Abort(MPI_COMM_WORLD, 2);
+        if (!is_agreed()) MPI_Abort(MPI_COMM_WORLD, 2);
         MPI_Finalize();
     }
 

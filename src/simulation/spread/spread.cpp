@@ -276,11 +276,11 @@ std::vector<double> Spread::weights_of(std::span<const GrowingPlant> plants, dou
 void Spread::balance(std::span<GrowingPlant> plants, double seconds, std::size_t memory) {
     const std::vector<double> weights = weights_of(plants, seconds);
     const auto loads = [&](const std::vector<int>& rank_of) {
-        std::vector<double> loads(static_cast<std::size_t>(ranks_.count()));
+        std::vector<double> sums(static_cast<std::size_t>(ranks_.count()));
         for (std::size_t plant = 0; plant < weights.size(); ++plant) {
-            loads[static_cast<std::size_t>(rank_of[plant])] += weights[plant];
+            sums[static_cast<std::size_t>(rank_of[plant])] += weights[plant];
         }
-        return loads;
+        return sums;
     };
     const auto heaviest = [&](const std::vector<int>& rank_of) {
         const std::vector<double> all = loads(rank_of);

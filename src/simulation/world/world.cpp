@@ -57,11 +57,6 @@ private:
     std::optional<Stopwatch> stopwatch_{std::in_place, seconds_};
 };
 
-/// What the recorders of a run read.
-struct Recorded {
-    bool anything = false, fields = false, plants = false;
-};
-
 // A plant's name as the name of a folder; names that differ stay different.
 std::string folder_of(const std::string& name) {
     std::string folder;
@@ -92,6 +87,11 @@ Scene with_defaults(Scene scene) {
 }  // namespace
 
 struct World::State {
+    /// What the recorders of a run read.
+    struct Recorded {
+        bool anything = false, fields = false, plants = false;
+    };
+
     State(const Scene& described, std::size_t bytes, const std::filesystem::path& files,
           std::shared_ptr<Printout> prints, Ranks* ranks);
 
@@ -307,7 +307,7 @@ void World::record() {
 }
 
 // The first rank has the recorders.
-const Recorded& World::State::what_is_recorded() {
+const World::State::Recorded& World::State::what_is_recorded() {
     if (recorded) return *recorded;
     Ranks* const ranks = &spread->ranks();
     const auto any_recorder = [&](const auto& is_one) {
