@@ -103,21 +103,30 @@ std::vector<std::string> Spread::traded(const std::function<void(std::ostream& o
     return ranks_.trade(std::move(to_each));
 }
 
-Spread::Places Spread::places_of(std::span<const GrowingPlant> plants, Environment& environment, int step) const {
+Spread::Asked Spread::asked(std::span<const GrowingPlant> plants, Environment& environment, int step) const {
+    Asked asked;
+    asked.reaches.resize(plants.size());
+    asked.goes_everywhere.resize(plants.size());
     std::map<std::size_t, std::vector<Box>> of_blocks;
     for (const GrowingPlant& plant : plants) {
         if (!plant.is_here) continue;
-        std::vector<Box>& boxes = of_blocks[blocks_[plant.number]];
-        boxes.resize(spreadings_.size());
+        std::vector<Box>& places = of_blocks[blocks_[plant.number]];
+        std::vector<Box>& reaches = asked.reaches[plant.number];
+        places.resize(spreadings_.size());
+        reaches.resize(spreadings_.size());
         const PlantView view = plant.view();
         for (const Query& query : plant.interpretation->queries) {
             const std::optional<std::size_t> process = environment.process_of(query, view, step);
-            if (process) boxes[*process].add(query.pose.position);
+            if (!process) continue;
+            places[*process].add(query.pose.position);
+            if (spreadings_[*process] == Spreading::reach)
+                reaches[*process].add(environment.reach(*process, query));
+            else
+                asked.goes_everywhere[plant.number] = true;
         }
     }
-    Places places;
-    for (auto& block : of_blocks) places.push_back(std::move(block.second));
-    return places;
+    for (auto& block : of_blocks) asked.places.push_back(std::move(block.second));
+    return asked;
 }
 
 std::vector<Spread::Places> Spread::places_of_all(const Places& own) {
@@ -131,6 +140,18 @@ std::vector<Spread::Places> Spread::places_of_all(const Places& own) {
         for (std::vector<Box>& boxes : places) get_column(in, boxes);
     }
     return all;
+}
+
+// Most plants are far from the blocks of another rank: their queries need not be tried one by one.
+bool Spread::may_matter(const GrowingPlant& plant, const Asked& asked, const Places& places) const {
+    if (asked.goes_everywhere[plant.number]) return true;
+    const std::vector<Box>& reaches = asked.reaches[plant.number];
+    return std::any_of(places.begin(), places.end(), [&](const std::vector<Box>& boxes) {
+        for (std::size_t process = 0; process < reaches.size(); ++process) {
+            if (overlap(reaches[process], boxes[process])) return true;
+        }
+        return false;
+    });
 }
 
 void Spread::select(const GrowingPlant& plant, Environment& environment, int step, const Places& places, bool sees_all,
@@ -152,7 +173,7 @@ void Spread::select(const GrowingPlant& plant, Environment& environment, int ste
 }
 
 void Spread::put_shared(std::ostream& out, std::span<const GrowingPlant> plants, Environment& environment, int step,
-                        const Places& places, bool sees_all) const {
+                        const Asked& asked, const Places& places, bool sees_all) const {
     std::vector<const Query*> selected;
     for (const GrowingPlant& plant : plants) {
         if (!plant.is_here) continue;
@@ -161,6 +182,7 @@ void Spread::put_shared(std::ostream& out, std::span<const GrowingPlant> plants,
             put_plant(out, plant);
             continue;
         }
+        if (!sees_all && !may_matter(plant, asked, places)) continue;
         select(plant, environment, step, places, sees_all, selected);
         if (selected.empty()) continue;
         put(out, plant.number);
@@ -170,11 +192,12 @@ void Spread::put_shared(std::ostream& out, std::span<const GrowingPlant> plants,
 
 void Spread::share(std::span<GrowingPlant> plants, Environment& environment, int step, bool first_sees_all) {
     forget(plants);
-    Places own;
-    together(&ranks_, [&] { own = places_of(plants, environment, step); });
-    const std::vector<Places> places = places_of_all(own);
+    Asked own;
+    together(&ranks_, [&] { own = asked(plants, environment, step); });
+    const std::vector<Places> places = places_of_all(own.places);
     const std::vector<std::string> received = traded([&](std::ostream& out, int rank) {
-        put_shared(out, plants, environment, step, places[static_cast<std::size_t>(rank)], first_sees_all && rank == 0);
+        put_shared(out, plants, environment, step, own, places[static_cast<std::size_t>(rank)],
+                   first_sees_all && rank == 0);
     });
     for (const std::string& bytes : received) {
         std::istringstream in(bytes);

@@ -63,14 +63,23 @@ private:
     /// Where queries of a rank may be asked whose answers others change: a box for each of its blocks and processes.
     using Places = std::vector<std::vector<Box>>;
 
-    Places places_of(std::span<const GrowingPlant> plants, Environment& environment, int step) const;
+    /// What the plants of this rank ask.
+    struct Asked {
+        Places places;
+        std::vector<std::vector<Box>>
+            reaches;                        ///< of plants, by number: around the reaches of their queries, by process
+        std::vector<bool> goes_everywhere;  ///< of plants: they ask a process that sees all queries
+    };
+
+    Asked asked(std::span<const GrowingPlant> plants, Environment& environment, int step) const;
     std::vector<Places> places_of_all(const Places& own);
+    bool may_matter(const GrowingPlant& plant, const Asked& asked, const Places& places) const;
     void select(const GrowingPlant& plant, Environment& environment, int step, const Places& places, bool sees_all,
                 std::vector<const Query*>& selected) const;
     std::vector<double> weights_of(std::span<const GrowingPlant> plants, double seconds);
     void move(std::span<GrowingPlant> plants, const std::vector<int>& to, std::size_t memory);
     void put_shared(std::ostream& out, std::span<const GrowingPlant> plants, Environment& environment, int step,
-                    const Places& places, bool sees_all) const;
+                    const Asked& asked, const Places& places, bool sees_all) const;
     /// Trades what `write` writes for each of the other ranks; returns what they wrote for this one, an empty text for
     /// itself.
     std::vector<std::string> traded(const std::function<void(std::ostream& out, int rank)>& write);
