@@ -27,10 +27,10 @@ public:
         REQUIRE(run("run lit.toml --quiet --output whole").code == 0);
     }
 
-    void check_same(const std::string& folder) const {
-        const auto whole = recorded_files(path() / "whole"), resumed = recorded_files(path() / folder);
-        CHECK(resumed.size() == whole.size());
-        for (const auto& [name, bytes] : whole) {
+    void check_same(const std::string& folder, const std::string& whole = "whole") const {
+        const auto expected = recorded_files(path() / whole), resumed = recorded_files(path() / folder);
+        CHECK(resumed.size() == expected.size());
+        for (const auto& [name, bytes] : expected) {
             INFO(name);
             REQUIRE(resumed.contains(name));
             CHECK(resumed.at(name) == bytes);
