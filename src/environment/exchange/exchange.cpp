@@ -79,8 +79,8 @@ void Environment::gather(const WorldView& world) {
     }
 }
 
-// Where one plant asks nothing but one process, the process reads the questions where they are, unless its communication
-// changes them.
+// Where one plant asks nothing but one process, the process reads the questions where they are, unless its
+// communication changes them.
 bool Environment::borrow(const WorldView& world) {
     const PlantView* only = nullptr;
     for (const PlantView& plant : world.plants) {

@@ -314,9 +314,10 @@ void require_same(const RunOptions& options) {
     together(options.ranks, [&] {
         const auto other = std::find_if(all.begin(), all.end(), [&](const std::string& one) { return one != all[0]; });
         if (other == all.end()) return;
-        throw UserError(fmt::format("rank {} runs another version of the program, other files, or other arguments than "
-                                    "rank 0; all must see the same",
-                                    other - all.begin()));
+        throw UserError(
+            fmt::format("rank {} runs another version of the program, other files, or other arguments than "
+                        "rank 0; all must see the same",
+                        other - all.begin()));
     });
 }
 
