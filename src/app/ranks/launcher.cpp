@@ -18,11 +18,16 @@ namespace {
 // What Open MPI, MPICH and Slurm tell the processes that they start: how many there are.
 constexpr std::array counts{"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"};
 
+int number_in(const char* variable) {
+    const char* const value = std::getenv(variable);
+    return value ? std::atoi(value) : 0;
+}
+
 int launched() {
     int most = 1;
-    for (const char* name : counts) {
-        if (const char* count = std::getenv(name)) most = std::max(most, std::atoi(count));
-    }
+    for (const char* name : counts) most = std::max(most, number_in(name));
+    // PMIx tells a process its rank only; srun, which starts it so, tells how many there are.
+    if (std::getenv("PMIX_RANK")) most = std::max(most, number_in("SLURM_STEP_NUM_TASKS"));
     return most;
 }
 

@@ -325,10 +325,7 @@ void Spread::move(std::span<GrowingPlant> plants, const std::vector<int>& to, st
     rank_of_ = to;
     forget(plants);
     for (GrowingPlant& plant : plants) {
-        if (!plant.is_here || to[plant.number] == ranks_.rank()) continue;
-        plant.is_here = false;
-        plant.memory = {};
-        forget({&plant, 1});
+        if (plant.is_here && to[plant.number] != ranks_.rank()) plant.give_away();
     }
     together(&ranks_, [&] {
         for (const std::string& bytes : received) {

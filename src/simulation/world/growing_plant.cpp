@@ -44,6 +44,16 @@ void GrowingPlant::note_received() {
     asks_ = interpretation->asks();
 }
 
+void GrowingPlant::give_away() {
+    is_here = false;
+    memory = {};
+    string.for_writing() = {};
+    previous_.for_writing() = {};
+    interpretation.for_writing() = {};
+    staged_.for_writing() = {};
+    note_received();
+}
+
 void GrowingPlant::set_length(int steps) {
     derivation.set_length(steps);
     note_derived();

@@ -46,6 +46,8 @@ public:
     PlantView view() const { return {number, &model(), &*string, &*interpretation, asks_, &drawn().geometry}; }
     /// After `string` and `interpretation` came from the rank that holds the plant.
     void note_received();
+    /// Another rank holds it from now on: only its description stays.
+    void give_away();
     PlantFrame frame(std::vector<Quantity> quantities) const;
 
     std::uint32_t number;

@@ -102,7 +102,6 @@ struct World::State {
     const Recorded& what_is_recorded();
     void gather_frame();
     void restore(std::istream& in);
-    static void drop(GrowingPlant& plant);
 
     void share_out_memory();
     void make_environment();
@@ -320,13 +319,6 @@ const World::State::Recorded& World::State::what_is_recorded() {
     return *recorded;
 }
 
-// Of a plant that another rank holds only its description stays.
-void World::State::drop(GrowingPlant& plant) {
-    plant.memory = {};
-    plant.string.for_writing() = {};
-    plant.modules = 0;
-}
-
 void World::State::gather_frame() {
     spread->gather(plants, *environment, step);
     if (!spread->is_first()) spread->forget(plants);
@@ -518,7 +510,7 @@ void World::State::restore(std::istream& in) {
     if (get<std::uint64_t>(in) != plants.size()) throw RunError("the checkpoint is of another scene");
     for (GrowingPlant& plant : plants) {
         get_state(in, plant, memory.bytes());
-        if (!plant.is_here) drop(plant);
+        if (!plant.is_here) plant.give_away();
     }
     environment->restore(in);
     share_out_memory();
