@@ -31,6 +31,18 @@ bool is_lopsided(const std::vector<double>& loads) {
     return *std::max_element(loads.begin(), loads.end()) > worth_moving * sum / static_cast<double>(loads.size());
 }
 
+/// Calls take(number, in) for each plant of which other ranks sent something; it reads what follows the number.
+template <class Take>
+void for_received(const std::vector<std::string>& received, const Take& take) {
+    for (const std::string& bytes : received) {
+        std::istringstream in(bytes);
+        while (in.peek() != std::istringstream::traits_type::eof()) {
+            const auto number = get<std::uint32_t>(in);
+            take(number, in);
+        }
+    }
+}
+
 // The fields of a process are named "light" and "light.shade".
 bool is_field_of(const std::string& field, const std::string& process) {
     return field == process || field.starts_with(process + ".");
@@ -199,16 +211,12 @@ void Spread::share(std::span<GrowingPlant> plants, Environment& environment, int
         put_shared(out, plants, environment, step, own, places[static_cast<std::size_t>(rank)],
                    first_sees_all && rank == 0);
     });
-    for (const std::string& bytes : received) {
-        std::istringstream in(bytes);
-        while (in.peek() != std::istringstream::traits_type::eof()) {
-            GrowingPlant& plant = plants[get<std::uint32_t>(in)];
-            if (sends_plants_)
-                get_plant(in, plant, step);
-            else
-                get_queries(in, plant);
-        }
-    }
+    for_received(received, [&](std::uint32_t number, std::istream& in) {
+        if (sends_plants_)
+            get_plant(in, plants[number], step);
+        else
+            get_queries(in, plants[number]);
+    });
 }
 
 void Spread::gather(std::span<GrowingPlant> plants, const Environment& environment, int step) {
@@ -223,17 +231,13 @@ void Spread::gather(std::span<GrowingPlant> plants, const Environment& environme
             if (!sends_plants_) put_plant(out, plant);
         }
     });
-    for (const std::string& bytes : received) {
-        std::istringstream in(bytes);
-        while (in.peek() != std::istringstream::traits_type::eof()) {
-            const auto number = get<std::uint32_t>(in);
-            std::vector<double> values;
-            get_column(in, values);
-            statistics_[number] = environment.statistics(number);
-            for (std::size_t i = 0; i < values.size(); ++i) statistics_[number].at(i).value = values[i];
-            if (!sends_plants_) get_plant(in, plants[number], step);
-        }
-    }
+    for_received(received, [&](std::uint32_t number, std::istream& in) {
+        std::vector<double> values;
+        get_column(in, values);
+        statistics_[number] = environment.statistics(number);
+        for (std::size_t i = 0; i < values.size(); ++i) statistics_[number].at(i).value = values[i];
+        if (!sends_plants_) get_plant(in, plants[number], step);
+    });
 }
 
 std::vector<Quantity> Spread::statistics(const Environment& environment, const GrowingPlant& plant) const {
@@ -261,13 +265,9 @@ std::vector<std::string> Spread::states(std::span<const GrowingPlant> plants) {
         }
     });
     std::vector<std::string> states(plants.size());
-    for (const std::string& bytes : received) {
-        std::istringstream in(bytes);
-        while (in.peek() != std::istringstream::traits_type::eof()) {
-            std::string& state = states[get<std::uint32_t>(in)];
-            state = get_text(in, std::numeric_limits<std::uint64_t>::max());
-        }
-    }
+    for_received(received, [&](std::uint32_t number, std::istream& in) {
+        states[number] = get_text(in, std::numeric_limits<std::uint64_t>::max());
+    });
     return states;
 }
 
@@ -286,13 +286,8 @@ std::vector<double> Spread::weights_of(std::span<const GrowingPlant> plants, dou
         put(out, seconds * static_cast<double>(plants[number].modules) / std::max(modules, 1.0));
     }
     std::vector<double> weights(plants.size());
-    for (const std::string& bytes : from_all(&ranks_, out.str())) {
-        std::istringstream in(bytes);
-        while (in.peek() != std::istringstream::traits_type::eof()) {
-            double& weight = weights[get<std::uint32_t>(in)];
-            weight = get<double>(in);
-        }
-    }
+    for_received(from_all(&ranks_, out.str()),
+                 [&](std::uint32_t number, std::istream& in) { weights[number] = get<double>(in); });
     return weights;
 }
 
@@ -328,14 +323,10 @@ void Spread::move(std::span<GrowingPlant> plants, const std::vector<int>& to, st
         if (plant.is_here && to[plant.number] != ranks_.rank()) plant.give_away();
     }
     together(&ranks_, [&] {
-        for (const std::string& bytes : received) {
-            std::istringstream in(bytes);
-            while (in.peek() != std::istringstream::traits_type::eof()) {
-                GrowingPlant& plant = plants[get<std::uint32_t>(in)];
-                get_state(in, plant, memory);
-                plant.is_here = true;
-            }
-        }
+        for_received(received, [&](std::uint32_t number, std::istream& in) {
+            get_state(in, plants[number], memory);
+            plants[number].is_here = true;
+        });
     });
 }
 
