@@ -78,4 +78,16 @@ private:
     std::string disk_;
 };
 
+/// --blocks and --resident.
+class BlockOptions {
+public:
+    explicit BlockOptions(CLI::App& command);
+
+    std::size_t blocks() const { return blocks_; }  ///< 0: not given
+    std::size_t resident() const { return resident_; }
+
+private:
+    std::size_t blocks_ = 0, resident_ = 1;
+};
+
 }  // namespace espalier::app

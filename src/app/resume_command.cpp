@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 class Resume final : public Command {
 public:
     explicit Resume(CLI::App& program)
-        : Command(program, "resume", "continue an interrupted run from its last checkpoint"), disk_(app()) {
+        : Command(program, "resume", "continue an interrupted run from its last checkpoint"), disk_(app()), blocks_(app()) {
         app().add_option("folder", run_, "the folder of the run")->required();
         app()
             .add_option("--checkpoint-every", checkpoint_every_,
@@ -69,6 +69,10 @@ private:
         if (every > 0) words.insert(words.end(), {"--checkpoint-every", std::to_string(every)});
         if (threads_ > 0) words.insert(words.end(), {"--threads", std::to_string(threads_)});
         if (disk_.bytes() > 0) words.insert(words.end(), {"--disk", std::to_string(disk_.bytes())});
+        if (blocks_.blocks() > 0) {
+            words.insert(words.end(), {"--blocks", std::to_string(blocks_.blocks()), "--resident",
+                                       std::to_string(blocks_.resident())});
+        }
         if (quiet_) words.emplace_back("--quiet");
         if (wants_json()) words.emplace_back("--json");
         fs::current_path(command.folder);
@@ -76,6 +80,7 @@ private:
     }
 
     DiskOption disk_;
+    BlockOptions blocks_;
     fs::path run_;
     int checkpoint_every_ = 0, threads_ = 0;
     bool quiet_ = false;

@@ -178,6 +178,8 @@ RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog&
     options.resume = arguments.resume;
     options.memory = arguments.memory;
     options.disk = arguments.disk;
+    options.blocks = arguments.blocks;
+    options.resident = arguments.resident;
     options.arguments = words_of(arguments);
     options.inputs = &inputs;
     options.ranks = ranks;
@@ -243,7 +245,8 @@ public:
                  ModelOptions::Files::reading_and_drawing),
           sets_(app()),
           growth_(app()),
-          disk_(app()) {
+          disk_(app()),
+          blocks_(app()) {
         app()
             .add_option("--threads", arguments_.threads,
                         "number of threads; default: all cores. The result does not depend on it")
@@ -289,6 +292,8 @@ Ctrl-C stops at once.)");
         arguments_.seed = growth_.seed();
         arguments_.memory = growth_.memory();
         arguments_.disk = disk_.bytes();
+        arguments_.blocks = blocks_.blocks();
+        arguments_.resident = blocks_.resident();
         arguments_.json = wants_json();
         if (!settings_.empty()) take_settings(settings_, arguments_);
         if (is_child_) end_with_parent();
@@ -300,6 +305,7 @@ private:
     SetOptions sets_;
     GrowthOptions growth_;
     DiskOption disk_;
+    BlockOptions blocks_;
     RunArguments arguments_;
     fs::path settings_;
     int every_ = 0;

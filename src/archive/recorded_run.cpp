@@ -5,6 +5,7 @@
 
 #include "archive/field_reader.h"
 #include "archive/geometry_file.h"
+#include "archive/joined_pieces.h"
 #include "archive/xml.h"
 #include "base/csv_file.h"
 #include "base/number.h"
@@ -95,7 +96,13 @@ std::vector<RecordedFrame> read_frames(const fs::path& folder, double dt) {
         return frame;
     };
     const fs::path plants = folder / "plants.pvd", fields = folder / "fields.pvd";
-    for (const CollectionEntry& entry : read_collection(plants)) frame_at(plants, entry.time).plants = entry.file;
+    for (const CollectionEntry& entry : read_collection(plants)) {
+        RecordedFrame& frame = frame_at(plants, entry.time);
+        if (frame.plants.empty())
+            frame.plants = entry.file;
+        else
+            frame.more_plants.push_back(entry.file);
+    }
     for (const CollectionEntry& entry : read_collection(fields)) {
         frame_at(fields, entry.time).fields[entry.name] = entry.file;
     }
@@ -287,7 +294,9 @@ FrameGeometry RecordedRun::geometry(const RecordedFrame& frame) const {
         throw UserError(fmt::format("{} holds no plants of step {}: its recorder 'skeleton' was off", folder_.string(),
                                     frame.step));
     }
-    FrameGeometry geometry = read_geometry(frame.plants);
+    std::vector<FrameGeometry> pieces{read_geometry(frame.plants)};
+    for (const fs::path& piece : frame.more_plants) pieces.push_back(read_geometry(piece));
+    FrameGeometry geometry = joined(std::move(pieces));
     for (const FrameAttributes* attributes : {&geometry.of_points, &geometry.of_cells}) {
         for (const std::uint32_t plant : attributes->plants) {
             if (plant >= plants_.size()) fail(frame.plants, fmt::format("the run has no plant {}", plant));

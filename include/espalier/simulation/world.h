@@ -54,6 +54,12 @@ public:
     /// Before start(): geometry and lineages will not be looked at. They are then not made, unless a process reads them
     /// or a model asks the turtle; frames have strings without lineage and empty interpretations.
     void skip_geometry();
+    /// Before start() or restore(): in memory are at most so many plants at once; the others wait in a file in
+    /// `folder`, which only this world sees, and recorders get the frames in parts. Changes no byte of what they
+    /// write. `is_shown`: recorders read plants. Then the stages of a step may not be called one by one, and frame(),
+    /// string() and interpretation() know nothing of plants that wait. Throws UserError for processes that read whole
+    /// plants. Not with `ranks`.
+    void keep_on_disk(const std::filesystem::path& folder, std::size_t in_memory, bool is_shown);
     /// Before start(): the derivation length of all plants, instead of the scene's.
     void set_steps(int steps);
 
@@ -92,8 +98,10 @@ public:
     int last_step() const;
     bool stopped() const;  ///< a model called stop()
     /// Stopped, or at the last step. Ask after every step.
-    bool at_end() const { return stopped() || steps_done() >= last_step(); }
+    bool at_end() const;
     std::size_t modules() const;
+    std::size_t modules_of(std::size_t plant) const;
+    std::size_t bytes_of_strings() const;  ///< of the plants that are here, in memory or on disk
     const StageTimes& times() const;
     /// The frame of the current step. Its fields are valid until the next.
     Frame frame() const;

@@ -37,6 +37,9 @@ struct Frame {
     const Fields* fields = nullptr;            ///< as they are until the next step
     bool is_last = false;                      ///< no step follows in this run
     const Environment* environment = nullptr;  ///< knows what organs have met, until the next step; null: nothing
+    // A world that is larger than memory gives its frames in parts, which have some of the plants each, in order.
+    bool begins = true;  ///< the first part
+    bool ends = true;    ///< the last part
 };
 
 }  // namespace espalier::timeline

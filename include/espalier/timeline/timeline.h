@@ -56,6 +56,7 @@ public:
 
 private:
     void make_recorders(Settings& table);
+    bool is_due(const Frame& frame);
     void restore(std::istream& in) override;
 
     std::filesystem::path folder_;
@@ -63,6 +64,7 @@ private:
     FrameSelection frames_;
     bool exactly_ = false;  // the last step is no frame unless chosen
     bool recorded_ = false;
+    bool is_due_ = false;  ///< the frame at hand
     bool resumed_ = false;
     int next_ = 0;
     int last_step_ = 0;

@@ -45,6 +45,7 @@ public:
             reads_plants =
                 (timeline_ && timeline_->reads_plants()) || (options.recorder && options.recorder->reads_plants());
         });
+        if (options.blocks > 0) keep_on_disk(reads_plants);
         if (options.resume) restore();
         if (!any(options.ranks, reads_plants)) world_.skip_geometry();
     }
@@ -86,6 +87,14 @@ private:
             options_.warn(explained({all.begin() + static_cast<std::ptrdiff_t>(warned_), all.end()}, scene_.computed));
         }
         warned_ = all.size();
+    }
+
+    void keep_on_disk(bool is_shown) {
+        if (options_.ranks) throw UserError("--blocks is for one process; ranks divide the plants among themselves");
+        const std::size_t in_a_block = (world_.size() + options_.blocks - 1) / options_.blocks;
+        const std::filesystem::path folder =
+            options_.output.empty() ? std::filesystem::temp_directory_path() : options_.output;
+        world_.keep_on_disk(folder, std::max<std::size_t>(in_a_block, 1) * options_.resident, is_shown);
     }
 
     // A mistake in the scene's [timeline] should not leave an empty folder behind.
@@ -196,7 +205,7 @@ private:
             return false;  // the step at hand is dropped, and with it the state of the world
         }
         if (is_recorded_ && !world_.at_end()) {
-            if (options_.saving) options_.saving(bytes_of_strings() + world_.environment().memory_kept());
+            if (options_.saving) options_.saving(world_.bytes_of_strings() + world_.environment().memory_kept());
             write_checkpoint();
         }
         return world_.at_end();
@@ -223,13 +232,7 @@ private:
     // Seconds that writing the strings takes at least.
     double estimated_checkpoint() const {
         constexpr double bytes_per_second = 2e8;
-        return static_cast<double>(bytes_of_strings()) / bytes_per_second;
-    }
-
-    std::size_t bytes_of_strings() const {
-        std::size_t bytes = 0;
-        for (std::size_t plant = 0; plant < world_.size(); ++plant) bytes += world_.string(plant).content();
-        return bytes;
+        return static_cast<double>(world_.bytes_of_strings()) / bytes_per_second;
     }
 
     void check_disk() {

@@ -109,6 +109,20 @@ void get_queries(std::istream& in, GrowingPlant& plant) {
     plant.note_received();
 }
 
+void put_geometry(std::ostream& out, const PlantGeometry& drawn) {
+    geometry::for_drawn_columns(drawn, [&](const auto& column) { put_drawn(out, column); });
+    put(out, drawn.in_pixels);
+    put(out, drawn.axes);
+    put(out, drawn.bounds);
+}
+
+void get_geometry(std::istream& in, PlantGeometry& drawn) {
+    geometry::for_drawn_columns(drawn, [&](auto& column) { get_drawn(in, column); });
+    drawn.in_pixels = get<bool>(in);
+    drawn.axes = get<std::uint32_t>(in);
+    drawn.bounds = get<Box>(in);
+}
+
 void put_plant(std::ostream& out, const GrowingPlant& plant) {
     const ModuleString& string = *plant.string;
     save_string(string, out);
@@ -121,11 +135,7 @@ void put_plant(std::ostream& out, const GrowingPlant& plant) {
     put_column(out, queries);
     put_column(out, plant.interpretation->answers);
     put_column(out, plant.interpretation->directions);
-    const PlantGeometry& drawn = plant.drawn().geometry;
-    geometry::for_drawn_columns(drawn, [&](const auto& column) { put_drawn(out, column); });
-    put(out, drawn.in_pixels);
-    put(out, drawn.axes);
-    put(out, drawn.bounds);
+    put_geometry(out, plant.drawn().geometry);
 }
 
 void get_plant(std::istream& in, GrowingPlant& plant, int step) {
@@ -137,12 +147,8 @@ void get_plant(std::istream& in, GrowingPlant& plant, int step) {
     take_queries(queries, string.parameters, interpretation.queries);
     get_column(in, interpretation.answers);
     get_column(in, interpretation.directions);
-    PlantGeometry& drawn = interpretation.geometry;
-    geometry::for_drawn_columns(drawn, [&](auto& column) { get_drawn(in, column); });
-    drawn.in_pixels = get<bool>(in);
-    drawn.axes = get<std::uint32_t>(in);
-    drawn.bounds = get<Box>(in);
-    drawn.shapes = shapes_of(*plant.description, step);
+    get_geometry(in, interpretation.geometry);
+    interpretation.geometry.shapes = shapes_of(*plant.description, step);
     plant.note_received();
 }
 

@@ -1,4 +1,4 @@
-// A plant of one rank as bytes for another.
+// A plant as bytes, for another rank or for later.
 #pragma once
 
 #include "simulation/world/growing_plant.h"
@@ -13,6 +13,10 @@ namespace espalier::simulation {
 void put_queries(std::ostream& out, std::span<const Query* const> queries);
 /// The plant then has a string of the parameters alone, where processes read and answer them.
 void get_queries(std::istream& in, GrowingPlant& plant);
+
+/// What is drawn, but for the surfaces of its organs.
+void put_geometry(std::ostream& out, const PlantGeometry& drawn);
+void get_geometry(std::istream& in, PlantGeometry& drawn);
 
 /// The string, what is drawn of it, and what it asks.
 void put_plant(std::ostream& out, const GrowingPlant& plant);

@@ -19,6 +19,11 @@ void prefetch_column(const Column& column) {
 
 }  // namespace
 
+void round_as_stored(ModuleString& string, Arithmetic arithmetic) {
+    if (arithmetic == Arithmetic::double_precision) return;
+    for (double& value : string.parameters) value = stored(value, arithmetic);
+}
+
 GrowingPlant::GrowingPlant(std::uint32_t plant, const Plant& from, std::shared_ptr<const SymbolTable> symbols,
                            const DerivationSettings& settings)
     : number(plant),
@@ -42,16 +47,27 @@ void GrowingPlant::note_derived() {
 void GrowingPlant::note_received() {
     modules = string->size();
     asks_ = interpretation->asks();
+    is_staged_ = false;
 }
 
 void GrowingPlant::give_away() {
     is_here = false;
     memory = {};
-    string.for_writing() = {};
-    previous_.for_writing() = {};
-    interpretation.for_writing() = {};
-    staged_.for_writing() = {};
+    hold(std::make_shared<const ModuleString>(), std::make_shared<const Interpretation>());
     note_received();
+}
+
+void GrowingPlant::hold(std::shared_ptr<const ModuleString> other_string,
+                        std::shared_ptr<const Interpretation> other_interpretation) {
+    string.release();
+    string.hold(std::move(other_string));
+    previous_.release();
+    keeps_previous_ = false;
+    interpretation.release();
+    interpretation.hold(std::move(other_interpretation));
+    staged_.release();
+    is_staged_ = false;
+    asks_ = interpretation->asks();
 }
 
 void GrowingPlant::set_length(int steps) {
@@ -133,6 +149,7 @@ void GrowingPlant::interpret(const FieldValues& fields, double time) {
     staged = result;
     StagedPlant plant{staged.geometry, *string, stage_key_, description->turtle.pose.heading, time};
     apply(now ? now->stages : description->stages, plant);
+    is_staged_ = true;
 }
 
 void GrowingPlant::prefetch_values() const {

@@ -19,6 +19,9 @@
 
 namespace espalier::simulation {
 
+/// Rounds the parameters as the arithmetic of a model keeps them.
+void round_as_stored(ModuleString& string, Arithmetic arithmetic);
+
 /// What a Plant of the scene has become: its derivation, and its values of the current step.
 class GrowingPlant {
 public:
@@ -48,6 +51,8 @@ public:
     void note_received();
     /// Another rank holds it from now on: only its description stays.
     void give_away();
+    /// Has these values in place of its own, of which no memory stays: of a plant that waits elsewhere, or was there.
+    void hold(std::shared_ptr<const ModuleString> string, std::shared_ptr<const Interpretation> interpretation);
     PlantFrame frame(std::vector<Quantity> quantities) const;
 
     std::uint32_t number;
@@ -67,7 +72,7 @@ public:
 private:
     void regrow(ModuleString& to);
     const Reusable<Interpretation>& shown() const {
-        return description->stages.empty() || !is_here ? interpretation : staged_;
+        return is_staged_ ? staged_ : interpretation;
     }
     const Derivation& drawing() const { return regrown_ ? *regrown_ : derivation; }
     template <class Rewrite>
@@ -84,6 +89,7 @@ private:
     RandomKey stage_key_;
     bool has_pictures_;
     bool asks_ = false;
+    bool is_staged_ = false;  ///< what is drawn of this step is in staged_
 };
 
 }  // namespace espalier::simulation

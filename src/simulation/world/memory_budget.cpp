@@ -73,6 +73,16 @@ void MemoryBudget::count_drawn(GrowingPlant& plant, int step, bool many_plants) 
     plant.memory.set_recorded(recorded, before);
 }
 
+void MemoryBudget::count_waiting(GrowingPlant& plant) {
+    const std::size_t before = plant.memory.strings;
+    const RecordedMemory recorded = plant.memory.recorded;
+    plant.memory = {};
+    plant.memory.strings = plant.string->content();
+    plant.memory.set_drawn(*plant.interpretation, /*many_plants=*/true);
+    plant.memory.recorded = {0, recorded.kept, recorded.finish};
+    strings_ -= before - plant.memory.strings;
+}
+
 void MemoryBudget::check_drawn(std::span<const GrowingPlant> plants, int step) {
     sum(plants);
     require(held_, plants, step);

@@ -42,6 +42,9 @@ public:
     void count_strings(GrowingPlant& plant);
     void check_strings(std::span<const GrowingPlant> plants, int step);
 
+    /// Of a plant only the queries are left in memory.
+    void count_waiting(GrowingPlant& plant);
+
     // Around interpretation.
     void count_drawn(GrowingPlant& plant, int step, bool many_plants) const;
     void check_drawn(std::span<const GrowingPlant> plants, int step);

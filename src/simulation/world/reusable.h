@@ -24,6 +24,12 @@ public:
     /// A value that others may read, too: while they do, it is not written.
     void hold(std::shared_ptr<const T> value) { now_ = std::const_pointer_cast<T>(std::move(value)); }
 
+    /// A new value, and no memory of those before but what others hold.
+    void release() {
+        now_ = std::make_shared<T>();
+        held_.clear();
+    }
+
     /// A value that no frame reads, its content left over from an earlier step.
     T& for_writing() {
         if (is_shared()) set_aside();

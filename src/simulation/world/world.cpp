@@ -11,6 +11,7 @@
 #include "simulation/world/every_plant.h"
 #include "simulation/world/growing_plant.h"
 #include "simulation/world/memory_budget.h"
+#include "simulation/world/plant_store.h"
 #include "turtle/asking.h"
 
 #include <fmt/format.h>
@@ -32,29 +33,15 @@ namespace {
 
 constexpr std::uint64_t checkpoint_signature = 0x35'646c'726f'57;  // "World5"
 
+/// Adds the seconds of its life.
 class Stopwatch {
 public:
     explicit Stopwatch(double& seconds) : seconds_(seconds), begin_(std::chrono::steady_clock::now()) {}
-    ~Stopwatch() { seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+    ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
 
 private:
     double& seconds_;
     std::chrono::steady_clock::time_point begin_;
-};
-
-/// Adds to the seconds; a Stopwatch sets them.
-class BusyTime {
-public:
-    explicit BusyTime(double& sum) : sum_(sum) {}
-    ~BusyTime() {
-        stopwatch_.reset();
-        sum_ += seconds_;
-    }
-
-private:
-    double& sum_;
-    double seconds_ = 0;
-    std::optional<Stopwatch> stopwatch_{std::in_place, seconds_};
 };
 
 // A plant's name as the name of a folder; names that differ stay different.
@@ -109,7 +96,19 @@ struct World::State {
     void set_lengths();
     DerivationSettings derivation_settings(const Plant& plant, const std::filesystem::path& files) const;
     double time() const { return step * scene.dt; }
-    void rewrite(void (GrowingPlant::*stage)(ModuleString*));
+    using Stage = void (GrowingPlant::*)(ModuleString*);
+    void grow(Stage stage);
+    void rewrite(std::span<GrowingPlant> some, Stage stage);
+    void interpret(std::span<GrowingPlant> some);
+    void wake(std::span<GrowingPlant> some);
+    void rest(std::span<GrowingPlant> some);
+    template <class Action>
+    void for_waiting(std::span<GrowingPlant> some, const Action& action);
+    void record_parts();
+    void give_to_recorders(std::span<const GrowingPlant> some, bool begins, bool ends);
+    Frame frame_of(std::span<const GrowingPlant> some) const;
+    bool is_at_end() const { return stopped || step >= last_step(); }
+    int last_step() const { return scene.last_frame.value_or(longest); }
     void note_ends();
     void find_fields_read();
     void take_fields();
@@ -125,6 +124,7 @@ struct World::State {
     std::vector<GrowingPlant> plants;
     std::unique_ptr<Environment> environment;
     std::unique_ptr<Spread> spread;        ///< null: all plants are here
+    std::unique_ptr<PlantStore> store;     ///< null: all plants are in memory
     std::vector<std::string> fields_read;  ///< by turtles
     FieldValues fields;                    ///< while turtles walk, and after a restart until then
     bool has_restored_fields = false;
@@ -144,21 +144,36 @@ struct World::State {
 
 void World::start() {
     state_->begin_step();
-    write_axioms();
-    interpret();
+    state_->grow(&GrowingPlant::write_axiom);
     exchange();
     record();
 }
 
 void World::step() {
     state_->begin_step();
-    derive();
-    interpret();
+    ++state_->step;
+    state_->grow(&GrowingPlant::derive);
     exchange();
     record();
 }
 
+// All plants at once, or part by part those that wait on disk.
+void World::State::grow(Stage stage) {
+    if (!store) {
+        rewrite(plants, stage);
+        return interpret(plants);
+    }
+    for (const std::span<GrowingPlant> part : store->parts()) {
+        wake(part);
+        rewrite(part, stage);
+        interpret(part);
+        rest(part);
+    }
+    store->turn();
+}
+
 void World::State::begin_step() {
+    times = {};
     if (!spread) return;
     if (std::exchange(is_saved, false)) {
         gathered = {};
@@ -176,21 +191,23 @@ void World::State::end_step() {
 }
 
 void World::write_axioms() {
-    state_->rewrite(&GrowingPlant::write_axiom);
+    state_->times = {};
+    state_->rewrite(state_->plants, &GrowingPlant::write_axiom);
 }
 
 void World::derive() {
+    state_->times = {};
     ++state_->step;
-    state_->rewrite(&GrowingPlant::derive);
+    state_->rewrite(state_->plants, &GrowingPlant::derive);
 }
 
-void World::State::rewrite(void (GrowingPlant::*stage)(ModuleString*)) {
+void World::State::rewrite(std::span<GrowingPlant> some, Stage stage) {
     const Stopwatch stopwatch(times.derive);
     const bool is_plentiful = memory.is_plentiful();
     if (spread) spread->forget(plants);
     all_do([&] {
-        const BusyTime busy_time(busy);
-        for_every_plant(plants, reads, &GrowingPlant::prefetch_for_derivation,
+        const Stopwatch busy_time(busy);
+        for_every_plant(some, reads, &GrowingPlant::prefetch_for_derivation,
                         [&](GrowingPlant& plant, ModuleString& spare) {
                             if (!plant.is_here || !memory.has_room()) return;
                             memory.limit_strings(plant);
@@ -221,20 +238,44 @@ void World::State::note_ends() {
 }
 
 void World::interpret() {
-    if (!state_->is_seen) return;
-    const Stopwatch stopwatch(state_->times.interpret);
-    state_->all_do([&] {
-        const BusyTime busy_time(state_->busy);
-        state_->take_fields();
-        for_every_plant(state_->plants, state_->reads, &GrowingPlant::prefetch_for_interpretation,
+    state_->interpret(state_->plants);
+}
+
+void World::State::interpret(std::span<GrowingPlant> some) {
+    if (!is_seen) return;
+    const Stopwatch stopwatch(times.interpret);
+    all_do([&] {
+        const Stopwatch busy_time(busy);
+        take_fields();
+        for_every_plant(some, reads, &GrowingPlant::prefetch_for_interpretation,
                         [&](GrowingPlant& plant, ModuleString&) {
                             if (!plant.is_here) return;
-                            plant.interpret(state_->fields, state_->time());
-                            state_->memory.count_drawn(plant, state_->step, size() > 1);
+                            plant.interpret(fields, time());
+                            memory.count_drawn(plant, step, plants.size() > 1);
                         });
-        state_->fields.forget();  // so that processes may write the next values over these
-        state_->memory.check_drawn(state_->plants, state_->step);
+        fields.forget();  // so that processes may write the next values over these
+        memory.check_drawn(plants, step);
     });
+}
+
+template <class Action>
+void World::State::for_waiting(std::span<GrowingPlant> some, const Action& action) {
+    for_every_plant(some, reads, &GrowingPlant::prefetch_values,
+                    [&](GrowingPlant& plant, ModuleString&) { action(plant); });
+}
+
+void World::State::wake(std::span<GrowingPlant> some) {
+    const Stopwatch stopwatch(times.derive);
+    for_waiting(some, [&](GrowingPlant& plant) { store->wake(plant); });
+}
+
+void World::State::rest(std::span<GrowingPlant> some) {
+    const Stopwatch stopwatch(times.interpret);
+    for_waiting(some, [&](GrowingPlant& plant) {
+        store->rest(plant);
+        memory.count_waiting(plant);
+    });
+    memory.check_drawn(plants, step);
 }
 
 // What processes left after the step before; a restarted world has it from its checkpoint.
@@ -284,25 +325,36 @@ void World::answer_turtle_queries() {
 void World::State::store_answers() {
     for (GrowingPlant& plant : plants) {
         const PlantView view = plant.view();
-        const Arithmetic arithmetic = view.model->arithmetic;
-        if (!view.asks || arithmetic == Arithmetic::double_precision) continue;
-        for (double& value : plant.string->parameters) value = stored(value, arithmetic);
+        if (view.asks) round_as_stored(*plant.string, view.model->arithmetic);
     }
 }
 
 void World::record() {
-    state_->times.record = 0;
     if (state_->spread ? state_->what_is_recorded().anything : !state_->recorders.empty()) {
         const Stopwatch stopwatch(state_->times.record);
         const StopRequest::Scope no_request(nullptr);  // a frame is recorded whole
         if (state_->spread && state_->recorded->plants) state_->gather_frame();
-        state_->all_do([&] {
-            if (state_->recorders.empty()) return;
-            const Frame now = frame();
-            for (Recorder* recorder : state_->recorders) recorder->record(now);
-        });
+        state_->all_do([&] { state_->record_parts(); });
     }
     state_->end_step();
+}
+
+void World::State::record_parts() {
+    if (recorders.empty()) return;
+    if (!store || !store->shows()) return give_to_recorders(plants, /*begins=*/true, /*ends=*/true);
+    const auto& parts = store->parts();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        for_waiting(parts[i], [&](GrowingPlant& plant) { store->show(plant); });
+        give_to_recorders(parts[i], i == 0, i + 1 == parts.size());
+        for_waiting(parts[i], [&](GrowingPlant& plant) { store->put_back(plant); });
+    }
+}
+
+void World::State::give_to_recorders(std::span<const GrowingPlant> some, bool begins, bool ends) {
+    Frame frame = frame_of(some);
+    frame.begins = begins;
+    frame.ends = ends;
+    for (Recorder* recorder : recorders) recorder->record(frame);
 }
 
 // The first rank has the recorders.
@@ -325,11 +377,15 @@ void World::State::gather_frame() {
 }
 
 Frame World::frame() const {
-    Frame frame{state_->step, state_->time(), {}, &state_->environment->fields(), at_end(), state_->environment.get()};
-    frame.plants.reserve(size());
-    for (const GrowingPlant& plant : state_->plants) {
-        frame.plants.push_back(plant.frame(state_->spread ? state_->spread->statistics(*state_->environment, plant)
-                                                          : state_->environment->statistics(plant.number)));
+    return state_->frame_of(state_->plants);
+}
+
+Frame World::State::frame_of(std::span<const GrowingPlant> some) const {
+    Frame frame{step, time(), {}, &environment->fields(), is_at_end(), environment.get()};
+    frame.plants.reserve(some.size());
+    for (const GrowingPlant& plant : some) {
+        frame.plants.push_back(plant.frame(spread ? spread->statistics(*environment, plant)
+                                                  : environment->statistics(plant.number)));
     }
     return frame;
 }
@@ -447,6 +503,24 @@ void World::skip_geometry() {
     for (GrowingPlant& plant : state.plants) plant.derivation.set_lineage(state.is_seen);
 }
 
+void World::keep_on_disk(const std::filesystem::path& folder, std::size_t in_memory, bool is_shown) {
+    State& state = *state_;
+    for (std::size_t process = 0; process < state.environment->size(); ++process) {
+        const Spreading spreading = state.environment->spreading(process);
+        if (spreading == Spreading::reach || spreading == Spreading::queries) continue;
+        throw UserError(fmt::format("process '{}' reads whole plants, so none can wait on disk; run without --blocks",
+                                    state.environment->name(process)));
+    }
+    state.store = std::make_unique<PlantStore>(folder, state.plants, in_memory, is_shown);
+}
+
+std::size_t World::bytes_of_strings() const {
+    if (state_->store) return state_->store->bytes();
+    std::size_t bytes = 0;
+    for (const GrowingPlant& plant : state_->plants) bytes += plant.string->content();
+    return bytes;
+}
+
 void World::set_steps(int steps) {
     state_->scene.steps = steps;
     state_->set_lengths();
@@ -487,11 +561,13 @@ void World::save(std::ostream& out) const {
     put(out, checkpoint_signature);
     put(out, static_cast<std::int32_t>(state_->step));
     put(out, static_cast<std::uint64_t>(size()));
-    for (const GrowingPlant& plant : state_->plants) {
+    for (GrowingPlant& plant : state_->plants) {
+        if (state_->store) state_->store->show(plant);
         if (plant.is_here)
             put_state(out, plant);
         else
             out << state_->gathered[plant.number];
+        if (state_->store) state_->store->put_back(plant);
     }
     state_->environment->save(out);
     FieldValues fields;
@@ -511,7 +587,9 @@ void World::State::restore(std::istream& in) {
     for (GrowingPlant& plant : plants) {
         get_state(in, plant, memory.bytes());
         if (!plant.is_here) plant.give_away();
+        if (store) store->rest(plant);
     }
+    if (store) store->turn();
     environment->restore(in);
     share_out_memory();
     fields.restore(in);
@@ -526,7 +604,11 @@ int World::steps_done() const {
 }
 
 int World::last_step() const {
-    return state_->scene.last_frame.value_or(state_->longest);
+    return state_->last_step();
+}
+
+bool World::at_end() const {
+    return state_->is_at_end();
 }
 
 bool World::stopped() const {
@@ -535,6 +617,10 @@ bool World::stopped() const {
 
 std::size_t World::modules() const {
     return state_->spread ? state_->modules_of_all : state_->memory.modules();
+}
+
+std::size_t World::modules_of(std::size_t plant) const {
+    return state_->plants[plant].modules;
 }
 
 const StageTimes& World::times() const {

@@ -33,10 +33,12 @@ bool is_number(std::string_view text) {
     return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-// "0012.vtp": named by a step's number.
+// "0012.vtp" or "0012-3.vtp": named by a step's number, and that of a piece.
 bool is_frame_file(const fs::path& path) {
-    const std::string extension = path.extension().string();
-    return is_number(path.stem().string()) && (extension == ".vtp" || extension == ".vti" || extension == ".vdb");
+    const std::string extension = path.extension().string(), name = path.stem().string();
+    const std::size_t dash = std::min(name.find('-'), name.size());
+    const bool is_piece = dash == name.size() || is_number(std::string_view(name).substr(dash + 1));
+    return is_number(std::string_view(name).substr(0, dash)) && is_piece && (extension == ".vtp" || extension == ".vti" || extension == ".vdb");
 }
 
 // ".plants.4711.part.pvd", named by the process: what a killed run was writing.
@@ -165,14 +167,19 @@ void Timeline::choose(FrameSelection frames) {
 }
 
 void Timeline::record(const Frame& frame) {
+    if (frame.begins) is_due_ = is_due(frame);
+    if (is_due_ || sees_every_step_) writer_->add(frame, is_due_);
+    if (!frame.ends) return;
+    if (is_due_ && !recorded_) writer_->wait();
+    recorded_ = recorded_ || is_due_;
+}
+
+bool Timeline::is_due(const Frame& frame) {
     const bool chosen = frame.step >= next_;
     if (chosen) next_ = frames_.after(frame.step);
     const bool ends = frame.is_last || (!exactly_ && frame.step == last_step_);
     const bool stopped = frame.is_last && frame.step < last_step_;
-    const bool due = chosen || stopped || (ends && !(exactly_ && recorded_));
-    if (due || sees_every_step_) writer_->add(frame, due);
-    if (due && !recorded_) writer_->wait();
-    recorded_ = recorded_ || due;
+    return chosen || stopped || (ends && !(exactly_ && recorded_));
 }
 
 RecordedMemory Timeline::memory(int step, const ModuleString& string, const Interpretation& interpretation) const {

@@ -114,6 +114,15 @@ void require_known(std::span<const ChosenParameter> chosen, std::span<const Plan
     }
 }
 
+void add_models(std::span<const PlantFrame> plants, std::vector<PlantFrame>& models) {
+    for (const PlantFrame& plant : plants) {
+        const auto is_same = [&](const PlantFrame& known) { return known.model == plant.model; };
+        if (!models.empty() && is_same(models.back())) continue;
+        if (std::any_of(models.begin(), models.end(), is_same)) continue;
+        models.emplace_back().model = plant.model;
+    }
+}
+
 ParameterSlots::ParameterSlots(const ChosenParameter& chosen, const Alphabet& alphabet)
     : slot_(chosen.number - 1), carries_(alphabet.size(), 0) {
     SymbolLetters letters = letters_of(chosen.symbol, alphabet);

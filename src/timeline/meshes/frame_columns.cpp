@@ -12,16 +12,6 @@
 namespace espalier::timeline {
 namespace {
 
-// Most organs are rhombi.
-std::size_t points_foreseen(const Frame& frame) {
-    std::size_t points = 0;
-    for (const PlantFrame& plant : frame.plants) {
-        const PlantGeometry& geometry = plant.interpretation->geometry;
-        points += 2 * geometry.internodes.size() + 4 * geometry.organs.size() + geometry.vertices.size();
-    }
-    return points;
-}
-
 bool is_in_pixels(const Frame& frame) {
     return std::any_of(frame.plants.begin(), frame.plants.end(),
                        [](const PlantFrame& plant) { return plant.interpretation->geometry.in_pixels; });
@@ -101,6 +91,12 @@ bool FrameColumns::shows_queries() const {
     return std::any_of(chosen_.begin(), chosen_.end(), [](const ChosenParameter& one) { return one.of_query(); });
 }
 
+// Most organs are rhombi.
+std::size_t FrameColumns::points_foreseen(const Interpretation& interpretation) {
+    const PlantGeometry& drawn = interpretation.geometry;
+    return 2 * drawn.internodes.size() + 4 * drawn.organs.size() + drawn.vertices.size();
+}
+
 MeshSize FrameColumns::foreseen(const Interpretation& interpretation) const {
     const std::size_t queries =
         shows_queries() ? interpretation.queries.size() + interpretation.answers.size() : std::size_t{0};
@@ -118,7 +114,9 @@ void FrameColumns::fill(const Frame& frame) {
 }
 
 void FrameColumns::fill_mesh(const Frame& frame) {
-    mesh_.reserve(points_foreseen(frame));
+    std::size_t points = 0;
+    for (const PlantFrame& plant : frame.plants) points += points_foreseen(*plant.interpretation);
+    mesh_.reserve(points);
     for (std::uint32_t i = 0; i < frame.plants.size(); ++i) {
         const PlantFrame& plant = frame.plants[i];
         add_asked_queries(plant, i);

@@ -34,8 +34,8 @@ public:
     /// `timeline` chooses parameters and quantities of organs.
     FrameColumns(std::optional<std::filesystem::path> folder, const Settings& timeline);
 
-    /// Throws UserError for parameters that no model has.
-    void require_known(const Frame& frame) const { timeline::require_known(chosen_, frame.plants); }
+    /// Throws UserError for parameters that none of their models has.
+    void require_known(std::span<const PlantFrame> plants) const { timeline::require_known(chosen_, plants); }
     /// Throws UserError for quantities of organs that no process knows.
     void fill(const Frame& frame);
     /// Adds all but the time to a file that has begun.
@@ -47,6 +47,8 @@ public:
     /// Frees the memory of the frame.
     void release();
 
+    /// How many points a plant's part of the mesh will have, about. Thread safe.
+    static std::size_t points_foreseen(const Interpretation& interpretation);
     /// How large a plant's part of the mesh will be. Thread safe.
     MeshSize foreseen(const Interpretation& interpretation) const;
     /// How many numbers of each module are chosen.

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 namespace espalier::timeline {
 namespace {
@@ -55,13 +56,12 @@ public:
 
     void record(const Frame& frame) override {
         if (is_written_) return;
-        is_written_ = true;
-        std::set<const Background*> seen;
-        BackgroundArrays arrays;
         for (const PlantFrame& plant : frame.plants) {
-            if (plant.background && seen.insert(plant.background).second) arrays.add(*plant.background);
+            if (plant.background && seen_.insert(plant.background).second) arrays_.add(*plant.background);
         }
-        if (!arrays.ends.empty()) write(arrays);
+        if (!frame.ends) return;
+        is_written_ = true;
+        if (!arrays_.ends.empty()) write(std::exchange(arrays_, {}));
     }
 
     void finish() override {}
@@ -91,6 +91,8 @@ private:
     }
 
     std::filesystem::path path_;
+    std::set<const Background*> seen_;
+    BackgroundArrays arrays_;
     bool is_written_ = false;
 };
 

@@ -57,6 +57,7 @@ public:
     bool wanted() const { return !names_.empty() && (vti_ || vdb_); }
 
     void record(const Frame& frame) override {
+        if (!frame.begins) return;
         if (written_.empty()) find_fields(*frame.fields);
         for (std::size_t i = 0; i < names_.size(); ++i) {
             const Field& field = *frame.fields->find(names_[i]);

@@ -50,11 +50,21 @@ public:
     std::vector<std::string> organs() const override { return columns_.organs(); }
 
     void record(const Frame& frame) override {
-        if (written_.empty()) columns_.require_known(frame);
-        columns_.fill(frame);
-        if (!is_written()) write(frame);
-        collection_.add(frame.time, 0, "plants", written_);
-        collection_.write();
+        if (is_first_) add_models(frame.plants, models_);
+        if (frame.begins) piece_ = 0;
+        if (frame.ends && waiting_.empty() && points_of(frame.plants) <= most_points) return end(frame);
+        const auto rest = [&] { return part_of(frame, std::exchange(waiting_, {})); };
+        for (const PlantFrame& plant : frame.plants) {
+            points_ += FrameColumns::points_foreseen(*plant.interpretation);
+            if (points_ > most_points && !waiting_.empty()) {
+                write_piece(rest());
+                points_ = FrameColumns::points_foreseen(*plant.interpretation);
+            }
+            waiting_.push_back(plant);
+        }
+        if (!frame.ends) return;
+        end(rest());
+        points_ = 0;
     }
 
     void finish() override {
@@ -86,6 +96,8 @@ public:
 
 private:
     static constexpr std::uint64_t longest_name = 1 << 16;
+    /// Of a file: larger frames are cut between plants, so that no more of them need be in memory.
+    static constexpr std::size_t most_points = std::size_t{1} << 22;
 
     // True if the last file shows what is there now.
     bool is_written() {
@@ -101,11 +113,39 @@ private:
         return file.digest();
     }
 
+    static std::size_t points_of(std::span<const PlantFrame> plants) {
+        std::size_t points = 0;
+        for (const PlantFrame& plant : plants) points += FrameColumns::points_foreseen(*plant.interpretation);
+        return points;
+    }
+
+    static Frame part_of(const Frame& frame, std::vector<PlantFrame> plants) {
+        Frame part = frame;
+        part.plants = std::move(plants);
+        return part;
+    }
+
+    void end(const Frame& last_piece) {
+        if (std::exchange(is_first_, false)) columns_.require_known(std::exchange(models_, {}));
+        write_piece(last_piece);
+        if (piece_ > 1) written_.clear();
+        collection_.write();
+    }
+
+    // A frame that is one piece may be the same as the one before.
+    void write_piece(const Frame& piece) {
+        columns_.fill(piece);
+        if (piece_ > 0 || !is_written()) write(piece);
+        collection_.add(piece.time, piece_, "plants", written_);
+        ++piece_;
+    }
+
     void write(const Frame& frame) {
         const std::string before = std::exchange(written_, {});  // in case something throws
         before.empty() ? file_.begin("PolyData") : file_.begin_after("PolyData");
         columns_.put_into(file_, frame.time, frame.step);
-        const std::string name = fmt::format("plants/{:04}.vtp", frame.step);
+        const std::string name = piece_ == 0 ? fmt::format("plants/{:04}.vtp", frame.step)
+                                             : fmt::format("plants/{:04}-{}.vtp", frame.step, piece_);
         make_folder(folder_ / "plants");
         file_.write(folder_ / name);
         written_ = name;
@@ -115,7 +155,13 @@ private:
     CollectionFile collection_;
     FrameColumns columns_;                   ///< what the last file shows
     std::optional<std::uint64_t> restored_;  ///< what a checkpoint holds of the last file
-    std::string written_;                    ///< the last file, relative to the folder; empty before the first
+    /// The file of the frame before, relative to the folder; empty if there is none, or several.
+    std::string written_;
+    bool is_first_ = true;
+    std::vector<PlantFrame> models_;   ///< of the first frame so far
+    std::vector<PlantFrame> waiting_;  ///< of the piece to come
+    std::size_t points_ = 0;           ///< of those
+    int piece_ = 0;                    ///< pieces of the frame so far
     VtkFile file_;
 };
 

@@ -1,0 +1,62 @@
+// Plants that wait on disk, so that a world may be larger than memory.
+#pragma once
+
+#include "base/scratch_file.h"
+#include "simulation/world/growing_plant.h"
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace espalier::simulation {
+
+/// The plants of a world come into memory part by part, in the order of the scene. Of those that wait, memory holds
+/// the queries with their parameters, which is all that an exchange reads and answers. Each of the functions for one
+/// plant may be called for several at once, by several threads; all throw RunError for a disk that is full or fails.
+class PlantStore {
+public:
+    /// `folder`: exists, and has room twice for what the plants are. `drawn`: what is drawn of a plant will be shown.
+    PlantStore(const std::filesystem::path& folder, std::span<GrowingPlant> plants, std::size_t in_memory, bool drawn);
+
+    const std::vector<std::span<GrowingPlant>>& parts() const { return parts_; }
+
+    /// After its interpretation, or after it was restored: its string waits, and what is drawn of it.
+    void rest(GrowingPlant& plant);
+    /// All plants have come and gone: those who wait no longer give their room back.
+    void turn();
+    /// Its string is there again, answered.
+    void wake(GrowingPlant& plant);
+    /// The same, with what is drawn of it, until put_back(). The string must not change.
+    void show(GrowingPlant& plant);
+    void put_back(GrowingPlant& plant);
+
+    /// Whether show() has what is drawn.
+    bool shows() const { return drawn_; }
+    std::uint64_t bytes() const { return files_[now_].size(); }
+
+private:
+    struct Place {
+        std::uint64_t at = 0;
+        std::uint64_t size = 0;  ///< 0: the plant does not wait
+    };
+    struct Waiting {
+        std::shared_ptr<const ModuleString> parameters;
+        std::shared_ptr<const Interpretation> queries;
+    };
+
+    void fetch(GrowingPlant& plant, bool drawn);
+
+    const bool drawn_;
+    std::vector<std::span<GrowingPlant>> parts_;
+    std::vector<Place> places_;     ///< of each plant
+    std::vector<Waiting> waiting_;  ///< of plants that are shown
+    std::array<ScratchFile, 2> files_;
+    std::size_t now_ = 0;
+};
+
+}  // namespace espalier::simulation
