@@ -96,7 +96,8 @@ private:
 
     void gather(const WorldView& world);
     bool borrow(const WorldView& world);
-    void gather(const PlantView& plant, int step);
+    void make_room(const WorldView& world);
+    void gather(const PlantView& plant, std::span<const Query> queries, int step);
     void name_processes(const PlantView& plant);
     std::optional<std::size_t> process_for(const Query& query, const PlantView& plant, int step) const;
     bool is_routed(const Query& query) const;

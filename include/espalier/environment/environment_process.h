@@ -31,12 +31,20 @@ struct PlantView {
     const PlantGeometry& drawn() const { return staged ? *staged : interpretation->geometry; }
 };
 
+/// The queries of plants that are not in memory, in place of those of their interpretations.
+struct WaitingQueries {
+    std::size_t count = 0;  ///< of all plants
+    /// Of one plant. Asked for once each, in plant order; valid until the next plant's are asked for.
+    std::function<std::span<const Query>(std::uint32_t plant)> of;
+};
+
 /// The world at one step. `dt` is the time a derivation step stands for, in the scene's unit.
 struct WorldView {
     int step = 0;
     double time = 0;
     double dt = 1;
     std::span<const PlantView> plants;
+    const WaitingQueries* waiting = nullptr;  ///< null: all plants are in memory
 };
 
 /// What a process knows when the world is made.

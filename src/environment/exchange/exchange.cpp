@@ -59,6 +59,10 @@ void Environment::exchange(const WorldView& world, std::span<ModuleString*> stri
     // Only now: the queries' parameters point into these strings.
     for (const Batch& batch : batches_) write_answers(batch, strings);
     write_turtle_answers(world, strings);
+    // Until the next exchange others need the room.
+    if (world.waiting) {
+        for (Batch& batch : batches_) batch.copies = QueryColumn();
+    }
     note_memory();
 }
 
@@ -69,14 +73,30 @@ void Environment::gather(const WorldView& world) {
         batch.queries = {};
     }
     last_model_ = nullptr;
-    if (!borrow(world)) {
-        for (const PlantView& plant : world.plants) gather(plant, world.step);
+    if (world.waiting || !borrow(world)) {
+        make_room(world);
+        for (const PlantView& plant : world.plants) {
+            gather(plant, world.waiting ? world.waiting->of(plant.plant) : plant.interpretation->queries, world.step);
+        }
         for (Batch& batch : batches_) batch.queries = batch.copies;
     }
     for (std::size_t process = 0; process < processes_.size(); ++process) {
         begin_answers(batches_[process]);
         send(process);
     }
+}
+
+// Room for the questions of many plants at once: to double it would hold all of them twice for a moment.
+void Environment::make_room(const WorldView& world) {
+    if (processes_.size() != 1) return;
+    std::size_t count = world.waiting ? world.waiting->count : 0;
+    if (!world.waiting) {
+        for (const PlantView& plant : world.plants) count += plant.interpretation->queries.size();
+    }
+    QueryColumn& copies = batches_.front().copies;
+    if (copies.capacity() >= count) return;
+    copies = QueryColumn();
+    copies.reserve(count + count / 8);
 }
 
 // Where one plant asks nothing but one process, the process reads the questions where they are, unless its
@@ -115,10 +135,10 @@ void Environment::name_processes(const PlantView& plant) {
     for (const std::string& name : plant.model->processes) by_name_.push_back(find(name));
 }
 
-void Environment::gather(const PlantView& plant, int step) {
-    if (!plant.asks || plant.interpretation->queries.empty()) return;
+void Environment::gather(const PlantView& plant, std::span<const Query> queries, int step) {
+    if (queries.empty()) return;
     name_processes(plant);
-    for (const Query& asked : plant.interpretation->queries) {
+    for (const Query& asked : queries) {
         const std::optional<std::size_t> process = process_for(asked, plant, step);
         if (!process) continue;
         Query& query = batches_[*process].copies.emplace_back(asked);

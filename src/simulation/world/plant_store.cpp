@@ -12,9 +12,11 @@
 namespace espalier::simulation {
 namespace {
 
-/// Where the parameters of a query and of the module that follows begin in the plant's string.
+/// Where the parameters of a query and of the module that follows it begin in the plant's string, and how many they
+/// are.
 struct QueryPlace {
     std::uint64_t own, following;
+    std::uint32_t own_count, following_count;
 };
 
 std::vector<QueryPlace> places_of(const QueryColumn& queries, const ModuleString& string) {
@@ -23,7 +25,9 @@ std::vector<QueryPlace> places_of(const QueryColumn& queries, const ModuleString
     for (const Query& query : queries) {
         const bool has_following = !query.following_parameters.empty();
         const auto following = has_following ? query.following_parameters.data() - string.parameters.data() : 0;
-        places.push_back({query.parameters_at, static_cast<std::uint64_t>(following)});
+        places.push_back({query.parameters_at, static_cast<std::uint64_t>(following),
+                          static_cast<std::uint32_t>(query.parameters.size()),
+                          static_cast<std::uint32_t>(query.following_parameters.size())});
     }
     return places;
 }
@@ -32,42 +36,50 @@ std::vector<QueryPlace> places_of(const QueryColumn& queries, const ModuleString
 void point(QueryColumn& queries, const std::vector<QueryPlace>& places, const Column<double>& parameters) {
     const std::span all(parameters);
     for (std::size_t i = 0; i < queries.size(); ++i) {
-        Query& query = queries[i];
-        query.parameters_at = places[i].own;
-        query.parameters = all.subspan(places[i].own, query.parameters.size());
-        query.following_parameters = all.subspan(places[i].following, query.following_parameters.size());
+        const QueryPlace& place = places[i];
+        queries[i].parameters_at = place.own;
+        queries[i].parameters = all.subspan(place.own, place.own_count);
+        queries[i].following_parameters = all.subspan(place.following, place.following_count);
     }
 }
 
-/// The queries alone, with a string of nothing but their parameters.
-std::pair<std::shared_ptr<ModuleString>, std::shared_ptr<Interpretation>> queries_alone(const Interpretation& from) {
-    auto parameters = std::make_shared<ModuleString>();
-    auto asked = std::make_shared<Interpretation>();
+/// Calls visit(place in the plant's string, place in a string of nothing but the parameters of queries).
+template <class Visit>
+void for_places(const std::vector<QueryPlace>& places, const Visit& visit) {
+    std::uint64_t next = 0;
+    for (const QueryPlace& place : places) {
+        const std::uint64_t own = next, following = own + place.own_count;
+        visit(place, QueryPlace{own, following, place.own_count, place.following_count});
+        next = following + place.following_count;
+    }
+}
+
+/// A string of nothing but the parameters of queries. `places` become those in it.
+std::shared_ptr<ModuleString> parameters_alone(const ModuleString& string, std::vector<QueryPlace>& places) {
+    auto alone = std::make_shared<ModuleString>();
     std::size_t count = 0;
-    for (const Query& query : from.queries) count += query.parameters.size() + query.following_parameters.size();
-    parameters->parameters.reserve(count);
-    std::vector<QueryPlace> places;
-    Column<double>& to = parameters->parameters;
-    const auto add = [&](std::span<const double> values) {
-        const std::size_t at = to.size();
-        to.insert(to.end(), values.begin(), values.end());
-        return at;
+    for (const QueryPlace& place : places) count += place.own_count + place.following_count;
+    alone->parameters.reserve(count);
+    const auto copy = [&](std::uint64_t from, std::uint32_t size) {
+        const auto begin = string.parameters.begin() + static_cast<std::ptrdiff_t>(from);
+        alone->parameters.insert(alone->parameters.end(), begin, begin + size);
     };
-    for (const Query& query : from.queries) {
-        const std::size_t own = add(query.parameters);
-        places.push_back({own, add(query.following_parameters)});
-    }
-    asked->queries.assign(from.queries.begin(), from.queries.end());
-    asked->geometry.shapes = from.geometry.shapes;
-    point(asked->queries, places, to);
-    return {std::move(parameters), std::move(asked)};
+    std::vector<QueryPlace> now;
+    now.reserve(places.size());
+    for_places(places, [&](const QueryPlace& from, const QueryPlace& to) {
+        copy(from.own, from.own_count);
+        copy(from.following, from.following_count);
+        now.push_back(to);
+    });
+    places = std::move(now);
+    return alone;
 }
 
-void write_answers(const QueryColumn& queries, const std::vector<QueryPlace>& places, ModuleString& string) {
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-        const std::span<const double> answer = queries[i].parameters;
-        std::copy(answer.begin(), answer.end(), string.parameters.begin() + static_cast<std::ptrdiff_t>(places[i].own));
-    }
+void write_answers(const ModuleString& answered, const std::vector<QueryPlace>& places, ModuleString& string) {
+    for_places(places, [&](const QueryPlace& to, const QueryPlace& from) {
+        const auto begin = answered.parameters.begin() + static_cast<std::ptrdiff_t>(from.own);
+        std::copy(begin, begin + from.own_count, string.parameters.begin() + static_cast<std::ptrdiff_t>(to.own));
+    });
 }
 
 }  // namespace
@@ -78,19 +90,24 @@ PlantStore::PlantStore(const std::filesystem::path& folder, std::span<GrowingPla
     for (std::size_t first = 0; first < plants.size(); first += in_memory) {
         parts_.push_back(plants.subspan(first, std::min(in_memory, plants.size() - first)));
     }
+    queries_.resize(parts_.size());
 }
 
 void PlantStore::rest(GrowingPlant& plant) {
     const Interpretation& from = *plant.interpretation;
     ModuleString& string = *plant.string;
-    const std::vector<QueryPlace> places = places_of(from.queries, string);
-    auto [parameters, asked] = queries_alone(from);
+    std::vector<QueryPlace> places = places_of(from.queries, string);
+    std::ostringstream out;
+    put_column(out, places);
+    auto asked = std::make_shared<Interpretation>();
+    asked->queries = from.queries;
+    auto parameters = parameters_alone(string, places);
+    point(asked->queries, places, parameters->parameters);
     // Processes answer queries only, so the turtle may be first.
     write_turtle_answers(from, string);
-    std::ostringstream out;
     save_string(string, out);
-    put_column(out, places);
     if (drawn_) {
+        put_column(out, from.queries);
         put_column(out, from.answers);
         put_column(out, from.directions);
         put_geometry(out, plant.drawn().geometry);
@@ -100,9 +117,39 @@ void PlantStore::rest(GrowingPlant& plant) {
     plant.hold(std::move(parameters), std::move(asked));
 }
 
+void PlantStore::gather_queries(std::size_t part) {
+    Queries& queries = queries_[part];
+    queries.begins.assign(1, 0);
+    for (const GrowingPlant& plant : parts_[part]) {
+        queries.begins.push_back(queries.begins.back() + plant.interpretation->queries.size());
+    }
+    queries.all = QueryColumn();  // frees its memory; = {} would not
+    queries.all.reserve(queries.begins.back());
+    for (GrowingPlant& plant : parts_[part]) {
+        QueryColumn& own = plant.interpretation->queries;
+        queries.all.insert(queries.all.end(), own.begin(), own.end());
+        own = QueryColumn();
+    }
+}
+
 void PlantStore::turn() {
     files_[now_].clear();
     now_ = 1 - now_;
+}
+
+environment::WaitingQueries PlantStore::queries() {
+    environment::WaitingQueries waiting;
+    for (const Queries& queries : queries_) waiting.count += queries.all.size();
+    waiting.of = [this](std::uint32_t plant) { return queries_of(plant); };
+    return waiting;
+}
+
+std::span<const Query> PlantStore::queries_of(std::uint32_t plant) {
+    const std::size_t part = plant / parts_.front().size(), row = plant % parts_.front().size();
+    if (row == 0 && part > 0) queries_[part - 1].all = QueryColumn();
+    const Queries& queries = queries_[part];
+    if (queries.begins.empty()) return {};
+    return std::span(queries.all).subspan(queries.begins[row], queries.begins[row + 1] - queries.begins[row]);
 }
 
 void PlantStore::wake(GrowingPlant& plant) {
@@ -116,28 +163,27 @@ void PlantStore::show(GrowingPlant& plant) {
 
 void PlantStore::put_back(GrowingPlant& plant) {
     Waiting& waiting = waiting_[plant.number];
-    plant.hold(std::move(waiting.parameters), std::move(waiting.queries));
+    plant.hold(std::move(waiting.string), std::move(waiting.interpretation));
     waiting = {};
 }
 
 void PlantStore::fetch(GrowingPlant& plant, bool drawn) {
     const Place& place = places_[plant.number];
     std::istringstream in(files_[now_].read(place.at, place.size));
-    auto string = std::make_shared<ModuleString>();
-    restore_string(*string, std::numeric_limits<std::size_t>::max(), in);
     std::vector<QueryPlace> places;
     get_column(in, places);
-    const Interpretation& asked = *plant.interpretation;
-    write_answers(asked.queries, places, *string);
+    auto string = std::make_shared<ModuleString>();
+    restore_string(*string, std::numeric_limits<std::size_t>::max(), in);
+    write_answers(*plant.string, places, *string);
     round_as_stored(*string, plant.model().arithmetic);
     auto shown = std::make_shared<Interpretation>();
     if (drawn) {
-        shown->queries = asked.queries;
+        get_column(in, shown->queries);
         point(shown->queries, places, string->parameters);
         get_column(in, shown->answers);
         get_column(in, shown->directions);
         get_geometry(in, shown->geometry);
-        shown->geometry.shapes = asked.geometry.shapes;
+        shown->geometry.shapes = plant.interpretation->geometry.shapes;
     }
     plant.hold(std::move(string), std::move(shown));
 }

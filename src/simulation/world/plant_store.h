@@ -16,8 +16,9 @@
 namespace espalier::simulation {
 
 /// The plants of a world come into memory part by part, in the order of the scene. Of those that wait, memory holds
-/// the queries with their parameters, which is all that an exchange reads and answers. Each of the functions for one
-/// plant may be called for several at once, by several threads; all throw RunError for a disk that is full or fails.
+/// the parameters of their queries and, until the exchange has read them, the queries, which is all that an exchange
+/// needs. Each of the functions for one plant may be called for several at once, by several threads; all throw RunError
+/// for a disk that is full or fails.
 class PlantStore {
 public:
     /// `folder`: exists, and has room twice for what the plants are. `drawn`: what is drawn of a plant will be shown.
@@ -27,8 +28,12 @@ public:
 
     /// After its interpretation, or after it was restored: its string waits, and what is drawn of it.
     void rest(GrowingPlant& plant);
-    /// All plants have come and gone: those who wait no longer give their room back.
+    /// After all plants of a part rest: puts their queries side by side.
+    void gather_queries(std::size_t part);
+    /// After all plants rest: the room on disk of what they were before is free again.
     void turn();
+    /// Those of all plants, once: memory holds them no longer than the exchange needs.
+    environment::WaitingQueries queries();
     /// Its string is there again, answered.
     void wake(GrowingPlant& plant);
     /// The same, with what is drawn of it, until put_back(). The string must not change.
@@ -45,16 +50,23 @@ private:
         std::uint64_t size = 0;  ///< 0: the plant does not wait
     };
     struct Waiting {
-        std::shared_ptr<const ModuleString> parameters;
-        std::shared_ptr<const Interpretation> queries;
+        std::shared_ptr<const ModuleString> string;
+        std::shared_ptr<const Interpretation> interpretation;
+    };
+    /// The queries of a part's plants, one after the other.
+    struct Queries {
+        QueryColumn all;
+        std::vector<std::size_t> begins;  ///< of each plant, and the end of the last
     };
 
+    std::span<const Query> queries_of(std::uint32_t plant);
     void fetch(GrowingPlant& plant, bool drawn);
 
     const bool drawn_;
     std::vector<std::span<GrowingPlant>> parts_;
     std::vector<Place> places_;     ///< of each plant
     std::vector<Waiting> waiting_;  ///< of plants that are shown
+    std::vector<Queries> queries_;  ///< of each part
     std::array<ScratchFile, 2> files_;
     std::size_t now_ = 0;
 };

@@ -163,11 +163,13 @@ void World::State::grow(Stage stage) {
         rewrite(plants, stage);
         return interpret(plants);
     }
-    for (const std::span<GrowingPlant> part : store->parts()) {
-        wake(part);
-        rewrite(part, stage);
-        interpret(part);
-        rest(part);
+    for (std::size_t part = 0; part < store->parts().size(); ++part) {
+        const std::span<GrowingPlant> some = store->parts()[part];
+        wake(some);
+        rewrite(some, stage);
+        interpret(some);
+        rest(some);
+        store->gather_queries(part);
     }
     store->turn();
 }
@@ -311,7 +313,8 @@ void World::State::exchange() {
         strings.push_back(&*plant.string);
     }
     share_out_memory();
-    environment->exchange({step, time(), scene.dt, views}, strings);
+    const environment::WaitingQueries waiting = store ? store->queries() : environment::WaitingQueries{};
+    environment->exchange({step, time(), scene.dt, views, store ? &waiting : nullptr}, strings);
     share_out_memory();
     store_answers();
 }
