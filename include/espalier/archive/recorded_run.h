@@ -74,9 +74,9 @@ struct RecordedFrame {
     int step = 0;
     double time = 0;
     std::filesystem::path plants;                         ///< empty where no plants were recorded
-    std::vector<std::filesystem::path> more_plants;       ///< further pieces of a frame that is cut between plants
     std::map<std::string, std::filesystem::path> fields;  ///< .vti, or .vdb where only that was recorded
     std::shared_ptr<const FrameGeometry> geometry;        ///< the plants, where they are in memory instead of a file
+    std::vector<std::filesystem::path> more_plants = {};  ///< further files of a frame that is cut between plants
 };
 
 /// How the author of a model looked at it, as its view file says.

@@ -99,10 +99,9 @@ std::shared_ptr<const FieldGrid> grid_from_bytes(const std::string& bytes) {
 
 std::uint64_t digest_of(const FieldGrid& grid) {
     if (!grid.grid) return 0;
-    const std::string bytes = bytes_of(grid);
     const std::string box = fmt::format("{} {} {} {} {} {}", grid.box.min().x(), grid.box.min().y(), grid.box.min().z(),
                                         grid.box.max().x(), grid.box.max().y(), grid.box.max().z());
-    return digest(bytes + box);
+    return digest(box, digest(bytes_of(grid)));
 }
 
 void write_vdb(const std::filesystem::path& path, const Field& field) {

@@ -29,13 +29,13 @@ public:
         plant_ = plant;
         error_ = std::move(error);
     }
-    /// A plant that is not alone is named.
-    void throw_if_any(std::span<const GrowingPlant> plants) const {
+    /// A plant that is not alone in its world is named.
+    void throw_if_any(std::span<const GrowingPlant> plants, bool is_alone) const {
         if (!error_) return;
         try {
             std::rethrow_exception(error_);
         } catch (const RunError& error) {
-            if (plants.size() == 1) throw;
+            if (is_alone) throw;
             throw RunError(fmt::format("plant '{}': {}", plants[plant_].description->name, error.what()));
         }
     }
@@ -56,10 +56,10 @@ inline void prefetch_ahead(std::span<const GrowingPlant> plants, PrefetchPlant p
     if (plants.size() > 2) (plants[2].*prefetch_columns)();
 }
 
-/// A stage gets a string, too, whose memory the plants of a thread pass on to each other. `reads` notes the files that
-/// models read; may be null.
+/// A stage gets a string, too, whose memory the plants of a thread pass on to each other. `is_alone`: the world has one
+/// plant. `reads` notes the files that models read; may be null.
 template <class Stage>
-void for_every_plant(std::span<GrowingPlant> plants, ReadLog* reads, PrefetchPlant prefetch_columns,
+void for_every_plant(std::span<GrowingPlant> plants, bool is_alone, ReadLog* reads, PrefetchPlant prefetch_columns,
                      const Stage& stage) {
     FirstFailure failure(plants.size());
     for_in_parallel(tbb::blocked_range<std::size_t>(0, plants.size()), [&](const auto& range) {
@@ -74,7 +74,7 @@ void for_every_plant(std::span<GrowingPlant> plants, ReadLog* reads, PrefetchPla
             }
         }
     });
-    failure.throw_if_any(plants);
+    failure.throw_if_any(plants, is_alone);
 }
 
 }  // namespace espalier::simulation

@@ -1,7 +1,8 @@
 // The plants of every frame: plants.pvd, and plants/NNNN.vtp with a line per axis; polygons, organs, generalized
 // cylinders and patches; labels.
 //
-// Parameters: skeleton (true or false, default true); parameters (table of array name = "SYMBOL.NUMBER"): module
+// Parameters: skeleton (true or false, default true); points_per_file (default 2^22): a frame of more is cut between
+// plants, into plants/NNNN.vtp, plants/NNNN-1.vtp and so on; parameters (table of array name = "SYMBOL.NUMBER"): module
 // parameters that become point arrays; a query's ("?E.1") also makes its queries vertices.
 // Cell and point arrays: identity, parent, plant, symbol (index into symbol_names), birth, order, colour, kind
 // (0 query, 1 axis, 2 polygon, 3 organ, 4 generalized cylinder, 5 patch, 6 label), and rgb where a plant has a palette;
@@ -45,6 +46,7 @@ public:
     Skeleton(const Settings& settings, const RecorderContext& context)
         : folder_(context.folder),
           collection_(context.folder / "plants.pvd"),
+          most_points_(static_cast<std::size_t>(settings.integer_or("points_per_file", 1 << 22, Range::between(1, 1e9)))),
           columns_(std::filesystem::path(settings.place().file).parent_path(), settings) {}
 
     std::vector<std::string> organs() const override { return columns_.organs(); }
@@ -52,11 +54,11 @@ public:
     void record(const Frame& frame) override {
         if (is_first_) add_models(frame.plants, models_);
         if (frame.begins) piece_ = 0;
-        if (frame.ends && waiting_.empty() && points_of(frame.plants) <= most_points) return end(frame);
+        if (frame.ends && waiting_.empty() && points_of(frame.plants) <= most_points_) return end(frame);
         const auto rest = [&] { return part_of(frame, std::exchange(waiting_, {})); };
         for (const PlantFrame& plant : frame.plants) {
             points_ += FrameColumns::points_foreseen(*plant.interpretation);
-            if (points_ > most_points && !waiting_.empty()) {
+            if (points_ > most_points_ && !waiting_.empty()) {
                 write_piece(rest());
                 points_ = FrameColumns::points_foreseen(*plant.interpretation);
             }
@@ -96,8 +98,6 @@ public:
 
 private:
     static constexpr std::uint64_t longest_name = 1 << 16;
-    /// Of a file: larger frames are cut between plants, so that no more of them need be in memory.
-    static constexpr std::size_t most_points = std::size_t{1} << 22;
 
     // True if the last file shows what is there now.
     bool is_written() {
@@ -153,6 +153,7 @@ private:
 
     std::filesystem::path folder_;
     CollectionFile collection_;
+    std::size_t most_points_;                ///< of a file
     FrameColumns columns_;                   ///< what the last file shows
     std::optional<std::uint64_t> restored_;  ///< what a checkpoint holds of the last file
     /// The file of the frame before, relative to the folder; empty if there is none, or several.
@@ -171,7 +172,9 @@ const Registered<RecorderType> entry{
      "parameters  {}; arrays from module parameters, as in { vigour = \"F.2\", light = \"?E.1\" }: the 2nd parameter\n"
      "            of F, and the 1st of ?E after its answer, whose queries become points\n"
      "organs      []; arrays of what a process knows of each organ, as in [\"light.absorbed\", \"light.sunlit\"]; the\n"
-     "            help of the process names them, organ_units in the files has their units",
+     "            help of the process names them, organ_units in the files has their units\n"
+     "points_per_file\n"
+     "            4194304; a frame of more points is cut between plants, into plants/NNNN.vtp, plants/NNNN-1.vtp, ...",
      [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
          auto recorder = std::make_unique<Skeleton>(settings, context);
          if (!settings.flag_or("skeleton", true)) return nullptr;
