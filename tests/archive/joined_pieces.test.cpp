@@ -68,11 +68,17 @@ TEST_CASE("a frame in several files is the frame in one", "[reading]") {
 }
 
 TEST_CASE("pieces that lack a column get the values of none", "[reading]") {
-    FrameGeometry plain, rich;
-    plain.points.resize(2);
-    plain.of_points.identities = {1, 2};
-    rich.points.resize(1);
-    rich.of_points.identities = {3};
+    const auto piece_of = [](std::size_t points) {
+        FrameGeometry piece;
+        piece.points.resize(points);
+        piece.normals.resize(points);
+        piece.uvs.resize(points);
+        piece.radii.resize(points);
+        piece.of_points.for_columns([&](const char*, auto& column) { column.resize(points); });
+        return piece;
+    };
+    const FrameGeometry plain = piece_of(2);
+    FrameGeometry rich = piece_of(1);
     rich.pixels = {2.5f};
     rich.parameters["mass"] = {7};
     rich.of_points.rgb = {{1, 2, 3}};

@@ -78,7 +78,8 @@ void MemoryBudget::count_waiting(GrowingPlant& plant) {
     const RecordedMemory recorded = plant.memory.recorded;
     plant.memory = {};
     plant.memory.strings = plant.string->content();
-    plant.memory.set_drawn(*plant.interpretation, /*many_plants=*/true);
+    // The exchange moves the queries: they are there once, with their answers.
+    plant.memory.drawn = plant.interpretation->queries.size() * (sizeof(Query) + sizeof(Answer) + 2 * sizeof(double));
     plant.memory.recorded = {0, recorded.kept, recorded.finish};
     strings_ -= before - plant.memory.strings;
 }

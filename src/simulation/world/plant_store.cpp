@@ -106,6 +106,7 @@ void PlantStore::rest(GrowingPlant& plant) {
     // Processes answer queries only, so the turtle may be first.
     write_turtle_answers(from, string);
     save_string(string, out);
+    const std::uint64_t string_size = out.view().size();
     if (drawn_) {
         put_column(out, from.queries);
         put_column(out, from.answers);
@@ -113,7 +114,7 @@ void PlantStore::rest(GrowingPlant& plant) {
         put_geometry(out, plant.drawn().geometry);
         asked->geometry.shapes = plant.drawn().geometry.shapes;
     }
-    places_[plant.number] = {files_[1 - now_].append(out.view()), out.view().size()};
+    places_[plant.number] = {files_[1 - now_].append(out.view()), out.view().size(), string_size};
     plant.hold(std::move(parameters), std::move(asked));
 }
 
@@ -169,7 +170,7 @@ void PlantStore::put_back(GrowingPlant& plant) {
 
 void PlantStore::fetch(GrowingPlant& plant, bool drawn) {
     const Place& place = places_[plant.number];
-    std::istringstream in(files_[now_].read(place.at, place.size));
+    std::istringstream in(files_[now_].read(place.at, drawn ? place.size : place.string));
     std::vector<QueryPlace> places;
     get_column(in, places);
     auto string = std::make_shared<ModuleString>();

@@ -47,7 +47,8 @@ public:
 private:
     struct Place {
         std::uint64_t at = 0;
-        std::uint64_t size = 0;  ///< 0: the plant does not wait
+        std::uint64_t size = 0;    ///< 0: the plant does not wait
+        std::uint64_t string = 0;  ///< of them the first, which wake() reads
     };
     struct Waiting {
         std::shared_ptr<const ModuleString> string;
