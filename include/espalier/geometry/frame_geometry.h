@@ -3,6 +3,7 @@
 #pragma once
 
 #include "espalier/base/column.h"
+#include "espalier/base/stations.h"
 #include "espalier/geometry/kind.h"
 
 #include <glm/vec2.hpp>
@@ -96,13 +97,3 @@ struct FrameInternode {
 std::vector<FrameInternode> internodes_of(const FrameGeometry& geometry);
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::FrameAttributes;
-using geometry::FrameCells;
-using geometry::FrameGeometry;
-using geometry::FrameInternode;
-using geometry::internodes_of;
-
-}  // namespace espalier

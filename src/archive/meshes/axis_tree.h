@@ -47,13 +47,3 @@ std::vector<AxisPath> axis_paths(const FrameGeometry& geometry, const MeshOption
 AxisTree axis_tree(const FrameGeometry& geometry, const MeshOptions& options);
 
 }  // namespace espalier::archive
-
-namespace espalier {
-
-using archive::axis_paths;
-using archive::axis_tree;
-using archive::AxisPath;
-using archive::AxisTree;
-using archive::Fork;
-
-}  // namespace espalier

@@ -77,15 +77,3 @@ constexpr std::size_t swept_triangles(std::size_t nodes, int sides, Caps caps) {
 Tube sweep(const TubeLine& line, int sides, Caps caps = Caps::round);
 
 }  // namespace espalier::archive
-
-namespace espalier {
-
-using archive::sweep;
-using archive::Tube;
-using archive::tube_line;
-using archive::TubeLine;
-using archive::TubeNode;
-using archive::TubeTriangle;
-using archive::TubeVertex;
-
-}  // namespace espalier
