@@ -51,8 +51,8 @@ std::vector<BranchTree> branch_trees(std::span<const FrameInternode> internodes,
         const FrameInternode& internode = internodes[i];
         const auto known = tree_of.find(internode.plant);
         if (known == tree_of.end()) continue;
-        if (internode.bearer != FrameInternode::none) {
-            const auto bearer = static_cast<std::size_t>(internode.bearer);
+        if (!internode.bearer.is_none()) {
+            const std::size_t bearer = internode.bearer.row();
             // An axis that begins where its bearer begins stands beside it.
             const bool beside = internode.base == internodes[bearer].base && internode.base != internodes[bearer].tip;
             places[i].below = beside ? places[bearer].below : places[bearer].inside;
