@@ -34,7 +34,7 @@ namespace {
 
 /// Where an internode of the frame is in the tree of its plant: `inside`, the row it became or, if it has no length,
 /// that of the one below; `below`, the row it stands on.
-struct Place {
+struct Footing {
     std::int32_t inside = BranchTree::ground;
     std::int32_t below = BranchTree::ground;
 };
@@ -46,13 +46,13 @@ std::vector<BranchTree> branch_trees(std::span<const FrameInternode> internodes,
     std::unordered_map<std::uint32_t, std::size_t> tree_of;
     for (const std::uint32_t plant : plants) tree_of.emplace(plant, tree_of.size());
     std::vector<BranchTree> trees(tree_of.size());
-    std::vector<Place> places(internodes.size());
+    std::vector<Footing> places(internodes.size());
     for (std::size_t i = 0; i < internodes.size(); ++i) {
         const FrameInternode& internode = internodes[i];
         const auto known = tree_of.find(internode.plant);
         if (known == tree_of.end()) continue;
-        if (internode.bearer != FrameInternode::none) {
-            const auto bearer = static_cast<std::size_t>(internode.bearer);
+        if (!internode.bearer.is_none()) {
+            const std::size_t bearer = internode.bearer.row();
             // An axis that begins where its bearer begins stands beside it.
             const bool beside = internode.base == internodes[bearer].base && internode.base != internodes[bearer].tip;
             places[i].below = beside ? places[bearer].below : places[bearer].inside;

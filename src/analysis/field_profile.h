@@ -15,9 +15,3 @@ RecordedTable field_profile(const RecordedRun& run, std::span<const RecordedFram
                             const std::string& field, const std::string& axis);
 
 }  // namespace espalier::analysis
-
-namespace espalier {
-
-using analysis::field_profile;
-
-}  // namespace espalier

@@ -20,7 +20,6 @@ namespace espalier::analysis {
 namespace {
 
 namespace fs = std::filesystem;
-using archive::XmlElement;
 
 /// The numbers of a text and the letters between them.
 class SvgText {

@@ -15,14 +15,14 @@ namespace espalier::analysis {
 namespace {
 
 /// Heights between which everything lies.
-struct Range {
+struct HeightRange {
     double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
 
     void add(double height) { low = std::min(low, height), high = std::max(high, height); }
 };
 
-Range range_of(const BranchTree& tree, const Leaves& leaves) {
-    Range range;
+HeightRange range_of(const BranchTree& tree, const Leaves& leaves) {
+    HeightRange range;
     for (std::size_t i = 0; i < tree.size(); ++i) range.add(tree.bases[i].y), range.add(tree.tips[i].y);
     for (const Leaf& leaf : leaves.leaves) range.add(leaf.position.y);
     return range;
@@ -67,7 +67,7 @@ double convenient_thickness(double extent) {
 }
 
 double part_of_thickness(const BranchTree& tree, const Leaves& leaves) {
-    const Range range = range_of(tree, leaves);
+    const HeightRange range = range_of(tree, leaves);
     constexpr double least = 1e-6;
     return range.low < range.high ? std::max(power_of_ten_below(range.high - range.low), least) : least;
 }
@@ -105,7 +105,7 @@ std::vector<Layer> merged_layers(const std::vector<Layer>& parts, double thickne
 }
 
 std::vector<Layer> layers(const BranchTree& tree, const Leaves& leaves, double thickness) {
-    const Range range = range_of(tree, leaves);
+    const HeightRange range = range_of(tree, leaves);
     if (!(range.low <= range.high)) return {};
     if (!(thickness > 0)) thickness = convenient_thickness(range.high - range.low);
     const double first = std::floor(range.low / thickness);

@@ -24,11 +24,6 @@
 namespace espalier::app {
 namespace {
 
-using lsystem::ExplainedModule;
-using lsystem::ExplainedProduction;
-using lsystem::Trial;
-using simulation::trimmed;
-
 struct DeriveArguments {
     ModelArguments model;
     std::optional<int> steps;

@@ -12,10 +12,3 @@ RecordedField read_field(const std::filesystem::path& path, const std::string& n
 Field read_grid(const std::filesystem::path& path, const std::string& name);
 
 }  // namespace espalier::archive
-
-namespace espalier {
-
-using archive::read_field;
-using archive::read_grid;
-
-}  // namespace espalier

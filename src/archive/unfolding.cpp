@@ -65,10 +65,10 @@ public:
         locator_->BuildLocator();
     }
 
-    std::int32_t of(const glm::vec3& point) {
-        if (data_->GetNumberOfPoints() == 0) return FrameInternode::none;
+    InternodeIndex of(const glm::vec3& point) {
+        if (data_->GetNumberOfPoints() == 0) return {};
         const double place[3] = {point.x, point.y, point.z};
-        return static_cast<std::int32_t>(locator_->FindClosestPoint(place));
+        return InternodeIndex(locator_->FindClosestPoint(place));
     }
 
 private:
@@ -76,19 +76,22 @@ private:
     vtkNew<vtkStaticPointLocator> locator_;
 };
 
+glm::vec3 place(const FrameGeometry& geometry, PointIndex point) {
+    return geometry.points[point.row()];
+}
+
 /// Points that are no points of axes, module by module.
-std::map<std::pair<std::uint32_t, std::uint64_t>, std::vector<std::int32_t>> organ_points_of(
+std::map<std::pair<std::uint32_t, std::uint64_t>, std::vector<PointIndex>> organ_points_of(
     const FrameGeometry& geometry, const std::vector<FrameInternode>& internodes) {
     std::vector<bool> of_axis(geometry.points.size());
     for (const FrameInternode& internode : internodes) {
-        of_axis[static_cast<std::size_t>(internode.base_point)] = true;
-        of_axis[static_cast<std::size_t>(internode.tip_point)] = true;
+        of_axis[internode.base_point.row()] = true;
+        of_axis[internode.tip_point.row()] = true;
     }
-    std::map<std::pair<std::uint32_t, std::uint64_t>, std::vector<std::int32_t>> organs;
+    std::map<std::pair<std::uint32_t, std::uint64_t>, std::vector<PointIndex>> organs;
     for (std::size_t i = 0; i < geometry.points.size(); ++i) {
         if (of_axis[i]) continue;
-        organs[{geometry.of_points.plants[i], geometry.of_points.identities[i]}].push_back(
-            static_cast<std::int32_t>(i));
+        organs[{geometry.of_points.plants[i], geometry.of_points.identities[i]}].emplace_back(i);
     }
     return organs;
 }
@@ -126,19 +129,15 @@ void Unfolding::match_organs(const FrameGeometry& early, const std::vector<Frame
     for (const Growing& growing : internodes_) after.push_back(growing.late);
     const auto were = organ_points_of(early, before);
     NearestTip tips_before(before), tips_after(after);
-    const auto place = [](const FrameGeometry& geometry, std::int32_t point) {
-        return geometry.points[static_cast<std::size_t>(point)];
-    };
     for (const auto& [module, points] : organ_points_of(late_, after)) {
-        const std::int32_t bearer = tips_after.of(place(late_, points.front()));
-        const glm::vec3 foot =
-            bearer == none ? place(late_, points.front()) : after[static_cast<std::size_t>(bearer)].tip;
+        const InternodeIndex bearer = tips_after.of(place(late_, points.front()));
+        const glm::vec3 foot = bearer.is_none() ? place(late_, points.front()) : after[bearer.row()].tip;
         const auto found = were.find(module);
         const bool is_known = found != were.end() && found->second.size() == points.size();
         glm::vec3 was_foot = foot;
         if (is_known) {
-            const std::int32_t tip = tips_before.of(place(early, found->second.front()));
-            was_foot = tip == none || bearer == none ? foot : before[static_cast<std::size_t>(tip)].tip;
+            const InternodeIndex tip = tips_before.of(place(early, found->second.front()));
+            was_foot = tip.is_none() || bearer.is_none() ? foot : before[tip.row()].tip;
         }
         for (std::size_t i = 0; i < points.size(); ++i) {
             const glm::vec3 from = is_known ? place(early, found->second[i]) - was_foot : glm::vec3(0);
@@ -150,21 +149,19 @@ void Unfolding::match_organs(const FrameGeometry& early, const std::vector<Frame
 FrameGeometry Unfolding::at(double share) const {
     const auto now = static_cast<float>(share);
     FrameGeometry geometry = late_;
-    std::vector<glm::vec3> tips(internodes_.size()), bases(internodes_.size());
-    for (std::size_t i = 0; i < internodes_.size(); ++i) {
+    RowsOf<FrameInternode, glm::vec3> tips(internodes_.size()), bases(internodes_.size());
+    for (InternodeIndex i(0); i < internodes_.next(); ++i) {
         const Growing& growing = internodes_[i];
         const FrameInternode& late = growing.late;
-        if (late.bearer == none) {
+        if (late.bearer.is_none()) {
             bases[i] = glm::mix(growing.was_base, late.base, now);
         } else {
-            const auto bearer = static_cast<std::size_t>(late.bearer);
-            bases[i] = late.base == internodes_[bearer].late.tip ? tips[bearer] : bases[bearer];
+            bases[i] = late.base == internodes_[late.bearer].late.tip ? tips[late.bearer] : bases[late.bearer];
         }
         const glm::vec3 to = late.tip - late.base;
         tips[i] = bases[i] + (growing.is_new ? now * to : turned(growing.was, to, now));
-        const auto base_point = static_cast<std::size_t>(late.base_point),
-                   tip_point = static_cast<std::size_t>(late.tip_point);
-        const bool begins_axis = i == 0 || internodes_[i - 1].late.axis != late.axis;
+        const std::size_t base_point = late.base_point.row(), tip_point = late.tip_point.row();
+        const bool begins_axis = i == InternodeIndex(0) || internodes_[i.before()].late.axis != late.axis;
         if (begins_axis) {
             geometry.points[base_point] = bases[i];
             geometry.radii[base_point] = std::lerp(growing.was_base_radius, late.base_radius, now);
@@ -173,9 +170,8 @@ FrameGeometry Unfolding::at(double share) const {
         geometry.radii[tip_point] = std::lerp(growing.was_tip_radius, late.tip_radius, now);
     }
     for (const OrganPoint& organ : organ_points_) {
-        const glm::vec3 foot = organ.bearer == none ? late_.points[static_cast<std::size_t>(organ.point)] - organ.to
-                                                    : tips[static_cast<std::size_t>(organ.bearer)];
-        geometry.points[static_cast<std::size_t>(organ.point)] = foot + glm::mix(organ.from, organ.to, now);
+        const glm::vec3 foot = organ.bearer.is_none() ? place(late_, organ.point) - organ.to : tips[organ.bearer];
+        geometry.points[organ.point.row()] = foot + glm::mix(organ.from, organ.to, now);
     }
     return geometry;
 }

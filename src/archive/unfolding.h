@@ -20,8 +20,6 @@ public:
     FrameGeometry at(double share) const;
 
 private:
-    static constexpr std::int32_t none = FrameInternode::none;
-
     /// An internode of the later frame, and what it was.
     struct Growing {
         FrameInternode late;
@@ -31,16 +29,16 @@ private:
     };
     /// A point of an organ relative to the tip of an internode nearby; of the plant's origin where there is none.
     struct OrganPoint {
-        std::int32_t point;
-        std::int32_t bearer;  ///< among `internodes_`, or none
-        glm::vec3 from, to;   ///< in the early and in the late frame
+        PointIndex point;
+        InternodeIndex bearer;  ///< among `internodes_`, or none
+        glm::vec3 from, to;     ///< in the early and in the late frame
     };
 
     void match_internodes(const std::vector<FrameInternode>& before);
     void match_organs(const FrameGeometry& early, const std::vector<FrameInternode>& before);
 
     FrameGeometry late_;
-    std::vector<Growing> internodes_;
+    RowsOf<FrameInternode, Growing> internodes_;
     std::vector<OrganPoint> organ_points_;
 };
 

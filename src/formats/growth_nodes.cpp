@@ -25,7 +25,7 @@ glm::quat turn_from_y(const glm::vec3& direction) {
 }
 
 NodeShape frustum(float taper, int sides, const Rgb& rgb) {
-    const TubeLine line{{{{0, 0, 0}, 1, 0}, {{0, 1, 0}, taper, 0}}};
+    const TubeLine line{{{{0, 0, 0}, 1, PointIndex(0)}, {{0, 1, 0}, taper, PointIndex(0)}}};
     NodeShape shape;
     const Tube tube = sweep(line, sides);
     for (const TubeVertex& vertex : tube.vertices) {
@@ -107,8 +107,7 @@ GrowthNode& GrowthNodes::node(std::uint32_t plant, Kind kind, std::uint64_t iden
 }
 
 void GrowthNodes::add_internode(const FrameGeometry& geometry, const FrameInternode& internode, float thinnest) {
-    if (!geometry.pixels.empty())
-        thinnest *= std::max(1.0f, geometry.pixels[static_cast<std::size_t>(internode.tip_point)]);
+    if (!geometry.pixels.empty()) thinnest *= std::max(1.0f, geometry.pixels[internode.tip_point.row()]);
     const float length = glm::distance(internode.base, internode.tip);
     if (length == 0) return;
     GrowthNode& here = node(internode.plant, Kind::axis, internode.identity);
@@ -119,7 +118,7 @@ void GrowthNodes::add_internode(const FrameGeometry& geometry, const FrameIntern
     const float taper = std::max(std::round(tip / base * taper_steps) / taper_steps, 1e-3f);
     here.part = {Kind::axis, internode.plant, internode.identity, geometry.symbol_names[internode.symbol]};
     here.taper = taper;
-    here.rgb = colour_of(geometry.of_points, static_cast<std::size_t>(internode.tip_point));
+    here.rgb = colour_of(geometry.of_points, internode.tip_point.row());
     append(here, frame_,
            {internode.base, turn_from_y((internode.tip - internode.base) / length), {base, length, base}});
 }

@@ -61,11 +61,3 @@ ExportedFile write_landscape_glb(const LandscapeFile& file, const std::filesyste
 ExportedFile write_landscape_usd(const LandscapeFile& file, const std::filesystem::path& path);
 
 }  // namespace espalier::formats
-
-namespace espalier {
-
-using formats::CardImage;
-using formats::is_landscape_file;
-using formats::write_landscape;
-
-}  // namespace espalier

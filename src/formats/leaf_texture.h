@@ -29,11 +29,3 @@ struct LeafPicture {
 LeafPicture leaf_picture(const LeafTexture& texture);
 
 }  // namespace espalier::formats
-
-namespace espalier {
-
-using formats::leaf_picture;
-using formats::LeafPicture;
-using formats::LeafTexture;
-
-}  // namespace espalier

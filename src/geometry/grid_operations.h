@@ -49,10 +49,3 @@ struct GridLibrary {
 };
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::grid_operations;
-using geometry::open_grid_library;
-
-}  // namespace espalier

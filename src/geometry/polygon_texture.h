@@ -15,9 +15,3 @@ namespace espalier::geometry {
 std::vector<glm::dvec2> texture_coordinates(std::span<const glm::dvec3> corners, const glm::dvec3& normal);
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::texture_coordinates;
-
-}  // namespace espalier

@@ -23,10 +23,3 @@ EarCut cut_ears(std::span<const glm::dvec3> corners);
 std::vector<std::uint32_t> triangles_of(std::span<const glm::dvec3> corners, const glm::dvec3& normal);
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::cut_ears;
-using geometry::triangles_of;
-
-}  // namespace espalier

@@ -18,9 +18,3 @@ inline std::uint32_t surface_id(std::string_view text) {
 }
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::surface_id;
-
-}  // namespace espalier

@@ -40,12 +40,3 @@ inline glm::dvec3 any_across(const glm::dvec3& direction) {
 }
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::any_across;
-using geometry::area_vector;
-using geometry::axis_apart_from;
-using geometry::unit_or;
-
-}  // namespace espalier

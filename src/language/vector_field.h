@@ -42,9 +42,3 @@ private:
 };
 
 }  // namespace espalier::language
-
-namespace espalier {
-
-using language::VectorField;
-
-}  // namespace espalier

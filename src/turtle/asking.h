@@ -9,9 +9,3 @@ namespace espalier::turtle {
 bool has_queries(const Alphabet& alphabet);
 
 }  // namespace espalier::turtle
-
-namespace espalier {
-
-using turtle::has_queries;
-
-}  // namespace espalier

@@ -32,9 +32,3 @@ private:
 };
 
 }  // namespace espalier::turtle
-
-namespace espalier {
-
-using turtle::internode_bearers;
-
-}  // namespace espalier

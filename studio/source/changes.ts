@@ -3,7 +3,7 @@
  * still open becomes lasting before a change of something else begins.
  */
 import { errorText, type Studio } from "./state.js";
-import type { ChangeRequest, GraphRequest, PointsRequest } from "./protocol.js";
+import type { ChangeRequest, GraphRequest, PointsRequest, ViewRequest } from "./protocol.js";
 
 /** Asks for a change of the document. */
 type Change = (more: { transient?: boolean }) => Promise<unknown>;
@@ -56,6 +56,11 @@ export class Changes {
   /** The same for the control points of a side file. */
   points(key: string, fields: PointsRequest, lasting: boolean): void {
     this.add(key, (more) => this.studio.connection.request("points", { ...fields, ...more }), lasting);
+  }
+
+  /** The same for a setting of a view file. */
+  viewValue(key: string, fields: ViewRequest, lasting: boolean): void {
+    this.add(key, (more) => this.studio.connection.request("view-value", { ...fields, ...more }), lasting);
   }
 
   /** Makes the open change lasting; done when the server has everything. */

@@ -464,6 +464,24 @@ export interface SettleRequest {
   take: "disk" | "mine";
 }
 
+/** another value for a setting of a view file. */
+export interface ViewRequest {
+  /** path of its text. */
+  path: string;
+  /** with its colon. */
+  name: string;
+  /** of the place among those that say this setting, from 0 on; their count: a new one; at least 0. */
+  number: number;
+  /** of a line of letters: which one is changed. */
+  letter?: string;
+  /** words that stand behind it then; null: it is taken out. */
+  values: string | null;
+  /** what undo calls it. */
+  label?: string;
+  /** the next change replaces it. */
+  transient?: boolean;
+}
+
 /** what modules can be coloured by. */
 export interface Columns {
   /** number of the growth. */
@@ -496,6 +514,8 @@ export interface StudioDocument {
   graphs: ComponentGraph[];
   /** control points of side files that can be read, in the order of their texts. */
   curves: PointCurve[];
+  /** what view files say, setting after setting. */
+  view_entries: ViewEntry[];
   /** that the plants grow with. */
   seed: number;
   /** to which they grow. */
@@ -590,6 +610,18 @@ export interface PointCurve {
   spline: "open" | "closed" | "clamped" | "other";
   /** in the order of the text. */
   points: CurvePoint[];
+}
+
+/** a place where a view file says a setting. */
+export interface ViewEntry {
+  /** path of its text. */
+  path: string;
+  /** with its colon. */
+  name: string;
+  /** the words behind it, as the text writes them. */
+  values: string[];
+  /** of a line of letters: the words behind each. */
+  letters: Record<string, string[]>;
 }
 
 /** the files of an export. */
@@ -796,6 +828,8 @@ export interface Requests {
   "stop": { send: object; get: object };
   /** takes back one lasting change. */
   "undo": { send: object; get: NewVersion };
+  /** changes a setting of a view file; its text follows. */
+  "view-value": { send: ViewRequest; get: NewVersion };
 }
 
 /** What the server says without being asked. */

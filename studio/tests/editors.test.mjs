@@ -174,6 +174,7 @@ describe("editors of side files", () => {
     const width = page.locator("input[type=range][aria-label='angle increment']");
     await width.focus();
     await page.keyboard.press("ArrowRight");
+    await grown();
     assert.match(await text(), /angle increment: 46/);
     await page.getByRole("button", { name: /Take "angle increment" out/ }).click();
     await page.getByRole("button", { name: /Take "background color" out/ }).click();

@@ -23,7 +23,7 @@ FrameInternode internode(glm::vec3 base, glm::vec3 tip, std::int32_t bearer, std
     result.base = base;
     result.tip = tip;
     result.base_radius = result.tip_radius = 0.5F;
-    result.bearer = bearer;
+    result.bearer = InternodeIndex(bearer);
     result.plant = plant;
     return result;
 }

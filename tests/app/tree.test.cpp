@@ -135,7 +135,7 @@ TEST_CASE_METHOD(Workplace, "in a decurrent crown no axis is longer than 40 % of
         const double base = measures["crown_base"], height = measures["height"];
         CHECK(base == Approx(2).margin(0.3));  // the stem's length
         const espalier::RecordedRun recorded(path() / name);
-        std::map<std::uint32_t, double> length;
+        std::map<espalier::LineIndex, double> length;
         for (const auto& one : internodes_of(recorded.geometry(recorded.frames().back()))) {
             if (one.base.y > base - 0.01) length[one.axis] += glm::distance(one.base, one.tip);
         }

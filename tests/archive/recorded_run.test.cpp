@@ -64,14 +64,14 @@ TEST_CASE("internodes know module, radii and the internode they stand on", "[rea
     CHECK(branch.tip == glm::vec3(1, 1.5, 0));
     CHECK(branch.base_radius == 0.1f);
     CHECK(branch.tip_radius == 0.05f);
-    CHECK(geometry.parameters.at("vigour")[static_cast<std::size_t>(branch.tip_point)] == 0.25);
+    CHECK(geometry.parameters.at("vigour")[branch.tip_point.row()] == 0.25);
     // Both plants: stem, stem's second internode on it, and the branch on the first.
-    CHECK(internodes[0].bearer == FrameInternode::none);
-    CHECK(internodes[1].bearer == 0);
-    CHECK(branch.bearer == 0);
-    CHECK(internodes[3].bearer == FrameInternode::none);
+    CHECK(internodes[0].bearer.is_none());
+    CHECK(internodes[1].bearer == InternodeIndex(0));
+    CHECK(branch.bearer == InternodeIndex(0));
+    CHECK(internodes[3].bearer.is_none());
     CHECK(internodes[3].plant == 1);
-    CHECK(internodes[5].bearer == 3);
+    CHECK(internodes[5].bearer == InternodeIndex(3));
 }
 
 TEST_CASE("a field reads back the same from .vti and from .vdb", "[reading]") {
@@ -182,7 +182,7 @@ TEST_CASE("files damaged anywhere are refused by name or read as something sound
             try {
                 const RecordedRun run(folder);
                 const FrameGeometry geometry = run.geometry(run.frame(4));
-                for (const FrameInternode& internode : internodes_of(geometry)) CHECK(internode.axis < 1000);
+                for (const FrameInternode& internode : internodes_of(geometry)) CHECK(internode.axis < LineIndex(1000));
                 run.field(run.frame(4), "light");
                 run.lifespans();
                 run.statistics();
@@ -230,7 +230,7 @@ TEST_CASE("lines in pixels are as thick as the picture says", "[reading]") {
     geometry.points = {{0, 0, 0}, {0, 1, 0}, {0, 2, 0}};
     geometry.radii = {0, 0, 0.5f};
     geometry.pixels = {3, 3, 0};
-    const std::vector<std::int32_t> points{0, 1, 2};
+    const std::vector<PointIndex> points{PointIndex(0), PointIndex(1), PointIndex(2)};
     const TubeLine line = tube_line(geometry, points, 0, 0.01f);
     REQUIRE(line.nodes.size() == 3);
     CHECK(line.nodes[0].radius == Approx(0.03f));

@@ -18,7 +18,7 @@ PlannedTube tube(const std::vector<glm::vec3>& points, float radius, bool stands
     planned.line.stands_free = stands_free;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const float part = 1 - 0.9f * static_cast<float>(i) / static_cast<float>(points.size());
-        planned.line.nodes.push_back({points[i], radius * part, 0});
+        planned.line.nodes.push_back({points[i], radius * part, espalier::PointIndex(0)});
     }
     return planned;
 }

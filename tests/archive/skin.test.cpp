@@ -27,7 +27,7 @@ namespace {
 AxisLine axis(const std::vector<glm::vec3>& points, const std::vector<float>& radii, bool stands_free = false) {
     AxisLine axis{{}, 0, 0};
     for (std::size_t i = 0; i < points.size(); ++i) {
-        axis.line.nodes.push_back({points[i], radii[i % radii.size()], static_cast<std::int32_t>(i)});
+        axis.line.nodes.push_back({points[i], radii[i % radii.size()], PointIndex(i)});
     }
     axis.line.stands_free = stands_free;
     return axis;

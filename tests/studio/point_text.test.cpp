@@ -11,10 +11,6 @@
 #include <limits>
 
 using namespace espalier;
-using studio::CurvePoint;
-using studio::PointCurve;
-using studio::read_curves;
-using studio::with_curve_points;
 
 namespace {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/archive/recorded_run.h"
+#include "espalier/base/stations.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -61,12 +62,3 @@ private:
 };
 
 }  // namespace espalier::analysis
-
-namespace espalier {
-
-using analysis::AnalysisOptions;
-using analysis::measure_descriptions;
-using analysis::MeasureDescription;
-using analysis::RunAnalysis;
-
-}  // namespace espalier

@@ -1,6 +1,8 @@
 // How a recorded frame becomes triangles.
 #pragma once
 
+#include "espalier/base/stations.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -29,10 +31,3 @@ struct MeshOptions {
 };
 
 }  // namespace espalier::archive
-
-namespace espalier {
-
-using archive::AxisSkin;
-using archive::MeshOptions;
-
-}  // namespace espalier

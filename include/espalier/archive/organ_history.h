@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/archive/recorded_run.h"
+#include "espalier/base/stations.h"
 
 #include <compare>
 #include <functional>
@@ -77,13 +78,3 @@ std::vector<std::pair<std::string, std::string>> described(const OrganHistory& h
                                                            int step);
 
 }  // namespace espalier::archive
-
-namespace espalier {
-
-using archive::described;
-using archive::OrganHistory;
-using archive::OrganKey;
-using archive::OrganMoment;
-using archive::OrganReader;
-
-}  // namespace espalier

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/base/column.h"
+#include "espalier/base/stations.h"
 #include "espalier/geometry/frame_geometry.h"
 
 #include <glm/vec2.hpp>
@@ -166,21 +167,3 @@ private:
 };
 
 }  // namespace espalier::archive
-
-namespace espalier {
-
-using archive::exit_of_run;
-using archive::folder_of_run;
-using archive::read_table;
-using archive::RecordedBackground;
-using archive::RecordedField;
-using archive::RecordedFrame;
-using archive::RecordedLife;
-using archive::RecordedLives;
-using archive::RecordedMaterial;
-using archive::RecordedPlant;
-using archive::RecordedRun;
-using archive::RecordedTable;
-using archive::RecordedView;
-
-}  // namespace espalier

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/base/column.h"
+#include "espalier/base/stations.h"
 #include "espalier/environment/environment_process.h"
 
 #include <memory>
@@ -128,10 +129,3 @@ private:
 };
 
 }  // namespace espalier::environment
-
-namespace espalier {
-
-using environment::asks_processes;
-using environment::Environment;
-
-}  // namespace espalier

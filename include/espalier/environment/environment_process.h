@@ -4,6 +4,7 @@
 #include "espalier/base/random.h"
 #include "espalier/base/registry.h"
 #include "espalier/base/settings.h"
+#include "espalier/base/stations.h"
 #include "espalier/geometry/field.h"
 #include "espalier/turtle/interpretation.h"
 
@@ -150,18 +151,3 @@ struct ProcessType {
 };
 
 }  // namespace espalier::environment
-
-namespace espalier {
-
-using environment::ChangingSetting;
-using environment::EnvironmentContext;
-using environment::EnvironmentProcess;
-using environment::OrganQuantity;
-using environment::PlantView;
-using environment::ProcessMemory;
-using environment::ProcessType;
-using environment::Quantity;
-using environment::Spreading;
-using environment::WorldView;
-
-}  // namespace espalier

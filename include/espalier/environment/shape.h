@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/base/settings.h"
+#include "espalier/base/stations.h"
 #include "espalier/geometry/field.h"
 #include "espalier/geometry/plant_geometry.h"
 
@@ -44,12 +45,3 @@ std::shared_ptr<const Shape> grown_and_moved(std::shared_ptr<const Shape> shape,
 const char* shape_help();
 
 }  // namespace espalier::environment
-
-namespace espalier {
-
-using environment::grown_and_moved;
-using environment::read_shape;
-using environment::Shape;
-using environment::shape_help;
-
-}  // namespace espalier

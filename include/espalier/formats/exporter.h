@@ -5,6 +5,7 @@
 #include "espalier/archive/mesh_options.h"
 #include "espalier/archive/recorded_run.h"
 #include "espalier/base/registry.h"
+#include "espalier/base/stations.h"
 
 #include <filesystem>
 #include <functional>
@@ -86,14 +87,3 @@ std::string format_of_extension(const std::string& extension);
 void export_run(const ExportJob& job, std::span<const std::string> formats);
 
 }  // namespace espalier::formats
-
-namespace espalier {
-
-using formats::export_run;
-using formats::ExportedFile;
-using formats::Exporter;
-using formats::ExporterType;
-using formats::ExportJob;
-using formats::format_of_extension;
-
-}  // namespace espalier

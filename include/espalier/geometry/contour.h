@@ -1,6 +1,8 @@
 // Cross-sections of generalized cylinders: closed or open uniform cubic B-splines, or what magnets make of an ellipse.
 #pragma once
 
+#include "espalier/base/stations.h"
+
 #include <glm/vec3.hpp>
 
 #include <memory>
@@ -39,9 +41,3 @@ private:
 };
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::Contour;
-
-}  // namespace espalier

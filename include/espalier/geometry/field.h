@@ -1,6 +1,7 @@
 // A field: a named OpenVDB grid with unit and meaning. Processes share fields; recorders write them.
 #pragma once
 
+#include "espalier/base/stations.h"
 #include "espalier/geometry/plant_geometry.h"
 
 #include <functional>
@@ -48,12 +49,3 @@ private:
 };
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::Field;
-using geometry::FieldGrid;
-using geometry::Fields;
-using geometry::FieldSource;
-
-}  // namespace espalier

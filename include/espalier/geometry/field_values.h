@@ -1,6 +1,7 @@
 // Fields as they are at one moment, for turtles that read them.
 #pragma once
 
+#include "espalier/base/stations.h"
 #include "espalier/geometry/field.h"
 
 #include <iosfwd>
@@ -34,9 +35,3 @@ private:
 };
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::FieldValues;
-
-}  // namespace espalier

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "espalier/base/column.h"
+#include "espalier/base/index.h"
+#include "espalier/base/stations.h"
 #include "espalier/geometry/kind.h"
 
 #include <glm/vec2.hpp>
@@ -74,20 +76,23 @@ struct FrameGeometry {
     std::vector<std::string> label_texts;  ///< texts of the vertices of Kind::label, in their order
 };
 
+struct FrameInternode;
+using PointIndex = Index<struct FramePoint>;   ///< a row of FrameGeometry::points and of what else is told by point
+using LineIndex = Index<struct FrameLine>;     ///< one of FrameGeometry::lines
+using InternodeIndex = Index<FrameInternode>;  ///< one of what `internodes_of` returns
+
 /// An internode of a frame: the piece of an axis between two neighbouring points.
 struct FrameInternode {
-    static constexpr std::int32_t none = -1;
-
     glm::vec3 base, tip;
     float base_radius, tip_radius;
     std::uint64_t identity, parent;  ///< identities of its module and of that module's parent
     std::uint32_t plant;
     std::uint16_t symbol, order, colour;
     std::int32_t birth;
-    std::uint32_t axis;   ///< the line it belongs to
-    std::int32_t bearer;  ///< the internode it stands on, always an earlier one of its plant; none: the plant's first
-    std::int32_t base_point;  ///< rows of `points` and of `of_points`
-    std::int32_t tip_point;   ///< whose row holds its parameters
+    LineIndex axis;         ///< the line it belongs to
+    InternodeIndex bearer;  ///< the internode it stands on, always an earlier one of its plant; none: the plant's first
+    PointIndex base_point;
+    PointIndex tip_point;  ///< whose row holds its parameters
 };
 
 /// The internodes of all axes, axis after axis, each from its base on; outlines of organs are none.
@@ -96,13 +101,3 @@ struct FrameInternode {
 std::vector<FrameInternode> internodes_of(const FrameGeometry& geometry);
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::FrameAttributes;
-using geometry::FrameCells;
-using geometry::FrameGeometry;
-using geometry::FrameInternode;
-using geometry::internodes_of;
-
-}  // namespace espalier

@@ -2,6 +2,7 @@
 // spans the box, and Bernstein polynomials carry their displacements inside.
 #pragma once
 
+#include "espalier/base/stations.h"
 #include "espalier/geometry/plant_geometry.h"
 
 #include <array>
@@ -39,11 +40,3 @@ void deform(const FreeForm& form, std::span<Internode> internodes, PlantGeometry
             const DrawnSoFar& since = {});
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::deform;
-using geometry::DrawnSoFar;
-using geometry::FreeForm;
-
-}  // namespace espalier

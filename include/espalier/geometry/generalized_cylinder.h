@@ -1,6 +1,7 @@
 // Generalized cylinders: a contour swept along a curve through, or near, control points.
 #pragma once
 
+#include "espalier/base/stations.h"
 #include "espalier/geometry/plant_geometry.h"
 
 #include <cstdint>
@@ -63,14 +64,3 @@ std::vector<CylinderRing> rings_of(const GeneralizedCylinder& cylinder);
 void draw(const GeneralizedCylinder& cylinder, PlantGeometry& geometry);
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::CylinderPoint;
-using geometry::CylinderRing;
-using geometry::draw;
-using geometry::GeneralizedCylinder;
-using geometry::RadiusTangents;
-using geometry::rings_of;
-
-}  // namespace espalier

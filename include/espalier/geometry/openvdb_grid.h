@@ -1,6 +1,7 @@
 // What a Field holds. Include this only where grids are made, sampled or written: it includes OpenVDB.
 #pragma once
 
+#include "espalier/base/stations.h"
 #include "espalier/geometry/field.h"
 
 #include <openvdb/openvdb.h>
@@ -29,11 +30,3 @@ void initialize_openvdb();
 openvdb::math::Transform::Ptr cell_centred_transform(double voxel, const glm::dvec3& origin);
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::cell_centred_transform;
-using geometry::FieldGrid;
-using geometry::initialize_openvdb;
-
-}  // namespace espalier

@@ -1,6 +1,8 @@
 // What a colour index of the turtle looks like: colour maps and materials.
 #pragma once
 
+#include "espalier/base/stations.h"
+
 #include <glm/vec4.hpp>
 
 #include <array>
@@ -34,13 +36,3 @@ void read_colour_map(const std::filesystem::path& path, int set, Palette& palett
 void read_materials(const std::filesystem::path& path, int set, Palette& palette);
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::Material;
-using geometry::Palette;
-using geometry::read_colour_map;
-using geometry::read_materials;
-using geometry::shown_colour;
-
-}  // namespace espalier

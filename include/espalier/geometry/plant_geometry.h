@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/base/column.h"
+#include "espalier/base/stations.h"
 #include "espalier/geometry/shapes.h"
 
 #include <glm/vec3.hpp>
@@ -122,20 +123,3 @@ double total_length(const PlantGeometry& geometry);
 double total_volume(const PlantGeometry& geometry);
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::Box;
-using geometry::DrawnMesh;
-using geometry::Internode;
-using geometry::Label;
-using geometry::Look;
-using geometry::MeshPiece;
-using geometry::Organ;
-using geometry::PlantGeometry;
-using geometry::Polygon;
-using geometry::Pose;
-using geometry::total_length;
-using geometry::total_volume;
-
-}  // namespace espalier

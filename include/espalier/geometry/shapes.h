@@ -1,6 +1,7 @@
 // What a model's view file gives a turtle to draw with: surfaces, contours, textures.
 #pragma once
 
+#include "espalier/base/stations.h"
 #include "espalier/geometry/contour.h"
 #include "espalier/geometry/surface.h"
 
@@ -27,10 +28,3 @@ struct Shapes {
 };
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::Shapes;
-using geometry::Texture;
-
-}  // namespace espalier

@@ -1,6 +1,8 @@
 // Surfaces an organ can have: bicubic patches, or triangles.
 #pragma once
 
+#include "espalier/base/stations.h"
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -55,14 +57,3 @@ struct SurfaceMesh {
 SurfaceMesh mesh_of(const Surface& surface);
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::BicubicPatch;
-using geometry::evaluate;
-using geometry::mesh_of;
-using geometry::Surface;
-using geometry::SurfaceMesh;
-using geometry::SurfaceVertex;
-
-}  // namespace espalier

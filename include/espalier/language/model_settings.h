@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/base/error.h"
+#include "espalier/base/stations.h"
 #include "espalier/language/reader.h"
 
 #include <cmath>
@@ -64,10 +65,3 @@ private:
 };
 
 }  // namespace espalier::language
-
-namespace espalier {
-
-using language::ModelSetting;
-using language::ModelSettings;
-
-}  // namespace espalier

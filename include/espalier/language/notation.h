@@ -3,6 +3,7 @@
 
 #include "espalier/base/error.h"
 #include "espalier/base/registry.h"
+#include "espalier/base/stations.h"
 
 #include <filesystem>
 #include <functional>
@@ -43,11 +44,3 @@ TranslatedText translated(const NotationType& notation, const std::string& text,
 TranslatedText translated(const std::filesystem::path& path);
 
 }  // namespace espalier::language
-
-namespace espalier {
-
-using language::notation_of;
-using language::NotationType;
-using language::TranslatedText;
-
-}  // namespace espalier

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/base/error.h"
+#include "espalier/base/stations.h"
 #include "espalier/lsystem/lsystem.h"
 
 #include <filesystem>
@@ -43,13 +44,3 @@ std::shared_ptr<const Model> read_model_text(std::string_view text, const std::s
 std::vector<Diagnostic> review(const Model& model, const std::vector<std::string>& turtle_symbols);
 
 }  // namespace espalier::language
-
-namespace espalier {
-
-using language::Defines;
-using language::read_model;
-using language::read_model_text;
-using language::ReadOptions;
-using language::review;
-
-}  // namespace espalier

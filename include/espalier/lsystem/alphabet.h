@@ -2,6 +2,8 @@
 // are one letter: F, F(l) and F(l, w) are three letters of the symbol F.
 #pragma once
 
+#include "espalier/base/stations.h"
+
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -52,12 +54,3 @@ private:
 };
 
 }  // namespace espalier::lsystem
-
-namespace espalier {
-
-using lsystem::Alphabet;
-using lsystem::LetterId;
-using lsystem::no_letter;
-using lsystem::SymbolId;
-
-}  // namespace espalier

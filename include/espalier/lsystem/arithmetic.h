@@ -1,6 +1,8 @@
 // How a plant computes: in double precision, or as cpfg does.
 #pragma once
 
+#include "espalier/base/stations.h"
+
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -30,12 +32,3 @@ constexpr double stored(double value, Arithmetic arithmetic) {
 }
 
 }  // namespace espalier::lsystem
-
-namespace espalier {
-
-using lsystem::Arithmetic;
-using lsystem::arithmetic_called;
-using lsystem::name_of;
-using lsystem::stored;
-
-}  // namespace espalier

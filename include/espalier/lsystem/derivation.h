@@ -3,6 +3,7 @@
 #pragma once
 
 #include "espalier/base/random.h"
+#include "espalier/base/stations.h"
 #include "espalier/lsystem/lsystem.h"
 #include "espalier/lsystem/module_string.h"
 #include "espalier/lsystem/printout.h"
@@ -104,16 +105,3 @@ private:
 };
 
 }  // namespace espalier::lsystem
-
-namespace espalier {
-
-using lsystem::compile;
-using lsystem::CompiledModel;
-using lsystem::Derivation;
-using lsystem::DerivationSettings;
-using lsystem::has_order;
-using lsystem::Printout;
-using lsystem::source_of;
-using lsystem::uses_random_numbers;
-
-}  // namespace espalier

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/base/error.h"
+#include "espalier/base/stations.h"
 
 #include <cstdint>
 #include <optional>
@@ -74,13 +75,3 @@ struct Statement {
 using Block = std::vector<Statement>;
 
 }  // namespace espalier::lsystem
-
-namespace espalier {
-
-using lsystem::Block;
-using lsystem::Expression;
-using lsystem::Function;
-using lsystem::Operator;
-using lsystem::Statement;
-
-}  // namespace espalier

@@ -3,6 +3,7 @@
 
 #include "espalier/base/column.h"
 #include "espalier/base/random.h"
+#include "espalier/base/stations.h"
 
 #include <atomic>
 #include <cstddef>
@@ -66,12 +67,3 @@ private:
 };
 
 }  // namespace espalier::lsystem
-
-namespace espalier {
-
-using lsystem::Birth;
-using lsystem::Identity;
-using lsystem::Siblings;
-using lsystem::SiblingTable;
-
-}  // namespace espalier

@@ -2,6 +2,7 @@
 // it.
 #pragma once
 
+#include "espalier/base/stations.h"
 #include "espalier/lsystem/alphabet.h"
 #include "espalier/lsystem/arithmetic.h"
 #include "espalier/lsystem/expression.h"
@@ -101,16 +102,3 @@ struct Model {
 };
 
 }  // namespace espalier::lsystem
-
-namespace espalier {
-
-using lsystem::ArrayDeclaration;
-using lsystem::LSystem;
-using lsystem::Model;
-using lsystem::ModuleDeclaration;
-using lsystem::ModulePattern;
-using lsystem::ModuleTemplate;
-using lsystem::Production;
-using lsystem::RuleSet;
-
-}  // namespace espalier

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/base/column.h"
+#include "espalier/base/stations.h"
 #include "espalier/lsystem/alphabet.h"
 #include "espalier/lsystem/lineage.h"
 
@@ -62,13 +63,3 @@ struct BranchLinks {
 void link_branches(const ModuleString& string, BranchLinks& links);
 
 }  // namespace espalier::lsystem
-
-namespace espalier {
-
-using lsystem::BranchLinks;
-using lsystem::link_branches;
-using lsystem::ModuleString;
-using lsystem::parameter_offsets;
-using lsystem::to_text;
-
-}  // namespace espalier

@@ -1,6 +1,8 @@
 // What models print.
 #pragma once
 
+#include "espalier/base/stations.h"
+
 #include <cstddef>
 #include <functional>
 #include <mutex>

@@ -1,6 +1,8 @@
 // What expressions of a model may ask of the files that stand beside it: functions, curves, the view volume.
 #pragma once
 
+#include "espalier/base/stations.h"
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -61,11 +63,3 @@ struct Resources {
 };
 
 }  // namespace espalier::lsystem
-
-namespace espalier {
-
-using lsystem::FunctionCurve;
-using lsystem::Resources;
-using lsystem::SpaceCurve;
-
-}  // namespace espalier

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/archive/recorded_run.h"
+#include "espalier/base/stations.h"
 #include "espalier/picture/picture_style.h"
 
 namespace espalier::picture {
@@ -13,10 +14,3 @@ CameraPlace camera_of(const RecordedView& view);
 void light_as(const RecordedView& view, PictureStyle& style);
 
 }  // namespace espalier::picture
-
-namespace espalier {
-
-using picture::camera_of;
-using picture::light_as;
-
-}  // namespace espalier

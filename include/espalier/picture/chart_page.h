@@ -1,6 +1,8 @@
 // A page of charts: what it shows, and the picture of it.
 #pragma once
 
+#include "espalier/base/stations.h"
+
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -67,18 +69,3 @@ struct Ticks {
 Ticks ticks_over(double low, double high, int count);
 
 }  // namespace espalier::picture
-
-namespace espalier {
-
-using picture::Chart;
-using picture::ChartPage;
-using picture::fitting_size;
-using picture::HeatMap;
-using picture::Key;
-using picture::PictureSize;
-using picture::Series;
-using picture::Ticks;
-using picture::ticks_over;
-using picture::write_picture;
-
-}  // namespace espalier

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/archive/mesh_options.h"
+#include "espalier/base/stations.h"
 
 #include <array>
 #include <cstdint>
@@ -87,16 +88,3 @@ struct CameraPlace {
 };
 
 }  // namespace espalier::picture
-
-namespace espalier {
-
-using picture::CameraPlace;
-using picture::dark_background;
-using picture::FieldLook;
-using picture::light_background;
-using picture::PictureBackground;
-using picture::PictureLight;
-using picture::PictureSky;
-using picture::PictureStyle;
-
-}  // namespace espalier

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/archive/recorded_run.h"
+#include "espalier/base/stations.h"
 #include "espalier/picture/chart_page.h"
 #include "espalier/picture/picture_style.h"
 
@@ -59,17 +60,3 @@ void render_sheet(const RenderJob& job, int columns, const std::filesystem::path
 std::vector<const RecordedFrame*> evenly(const std::vector<const RecordedFrame*>& frames, std::size_t count);
 
 }  // namespace espalier::picture
-
-namespace espalier {
-
-using picture::colours_of_every_run;
-using picture::evenly;
-using picture::is_film;
-using picture::render_film;
-using picture::render_pictures;
-using picture::render_sheet;
-using picture::RenderJob;
-using picture::require_film_writer;
-using picture::require_png;
-
-}  // namespace espalier

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/archive/recorded_run.h"
+#include "espalier/base/stations.h"
 #include "espalier/picture/chart_page.h"
 
 #include <map>
@@ -40,13 +41,3 @@ std::vector<std::string> default_quantities(std::span<const PlottedTable> tables
 ChartPage chart_page(std::span<const PlottedTable> tables, const PlotOptions& options);
 
 }  // namespace espalier::picture
-
-namespace espalier {
-
-using picture::chart_page;
-using picture::default_quantities;
-using picture::Lines;
-using picture::PlotOptions;
-using picture::PlottedTable;
-
-}  // namespace espalier

@@ -1,6 +1,7 @@
 // Objects: a model with the files that stand beside it, as a command line or a folder names them.
 #pragma once
 
+#include "espalier/base/stations.h"
 #include "espalier/simulation/scene.h"
 
 #include <filesystem>
@@ -40,12 +41,3 @@ Scene scene_of_object(const ObjectFiles& object, const SceneOptions& options = {
 std::vector<std::string> unused_files(const ObjectFiles& object);
 
 }  // namespace espalier::simulation
-
-namespace espalier {
-
-using simulation::ObjectFiles;
-using simulation::read_object_folder;
-using simulation::scene_of_object;
-using simulation::unused_files;
-
-}  // namespace espalier

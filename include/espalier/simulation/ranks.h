@@ -1,6 +1,8 @@
 // Several processes that grow one world together, each in its own memory: the ranks of MPI.
 #pragma once
 
+#include "espalier/base/stations.h"
+
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -55,9 +57,3 @@ bool any(Ranks* ranks, bool own);
 void together(Ranks* ranks, const std::function<void()>& work);
 
 }  // namespace espalier::simulation
-
-namespace espalier {
-
-using simulation::Ranks;
-
-}  // namespace espalier

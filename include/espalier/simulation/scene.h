@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/base/settings.h"
+#include "espalier/base/stations.h"
 #include "espalier/environment/environment.h"
 #include "espalier/geometry/palette.h"
 #include "espalier/language/reader.h"
@@ -129,20 +130,3 @@ Scene scene_of_model(const std::filesystem::path& model, const SceneOptions& opt
 const char* scene_help();
 
 }  // namespace espalier::simulation
-
-namespace espalier {
-
-using simulation::Insertion;
-using simulation::Plant;
-using simulation::plant_of_file;
-using simulation::plant_of_text;
-using simulation::read_scene;
-using simulation::read_scene_text;
-using simulation::Scene;
-using simulation::scene_help;
-using simulation::scene_of_model;
-using simulation::SceneEnvironment;
-using simulation::SceneNotes;
-using simulation::SceneOptions;
-
-}  // namespace espalier

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/base/read_log.h"
+#include "espalier/base/stations.h"
 #include "espalier/simulation/world.h"
 
 #include <filesystem>
@@ -77,16 +78,3 @@ std::filesystem::path checkpoint_of(const std::filesystem::path& output);
 RunResult run(const Scene& scene, const RunOptions& options = {});
 
 }  // namespace espalier::simulation
-
-namespace espalier {
-
-using simulation::checkpoint_of;
-using simulation::default_disk;
-using simulation::default_memory;
-using simulation::peak_memory;
-using simulation::Progress;
-using simulation::run;
-using simulation::RunOptions;
-using simulation::RunResult;
-
-}  // namespace espalier

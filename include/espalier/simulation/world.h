@@ -1,6 +1,7 @@
 // The world of a scene: its plants and its environment, one step at a time.
 #pragma once
 
+#include "espalier/base/stations.h"
 #include "espalier/simulation/ranks.h"
 #include "espalier/simulation/scene.h"
 #include "espalier/timeline/recorder.h"
@@ -122,12 +123,3 @@ private:
 };
 
 }  // namespace espalier::simulation
-
-namespace espalier {
-
-using simulation::DerivedStep;
-using simulation::folder_with;
-using simulation::StageTimes;
-using simulation::World;
-
-}  // namespace espalier

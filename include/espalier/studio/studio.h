@@ -2,6 +2,7 @@
 // plant.
 #pragma once
 
+#include "espalier/base/stations.h"
 #include "espalier/simulation/scene.h"
 
 #include <atomic>
@@ -49,10 +50,3 @@ struct StudioOptions {
 void serve(const StudioOptions& options);
 
 }  // namespace espalier::studio
-
-namespace espalier {
-
-using studio::serve;
-using studio::StudioOptions;
-
-}  // namespace espalier

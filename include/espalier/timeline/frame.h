@@ -1,6 +1,7 @@
 // One frame of the timeline: everything about one step that a recorder may read, after its exchange.
 #pragma once
 
+#include "espalier/base/stations.h"
 #include "espalier/environment/environment.h"
 #include "espalier/geometry/palette.h"
 #include "espalier/lsystem/module_string.h"
@@ -43,10 +44,3 @@ struct Frame {
 };
 
 }  // namespace espalier::timeline
-
-namespace espalier {
-
-using timeline::Frame;
-using timeline::PlantFrame;
-
-}  // namespace espalier

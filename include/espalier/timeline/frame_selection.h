@@ -1,6 +1,8 @@
 // Which steps of a run become frames.
 #pragma once
 
+#include "espalier/base/stations.h"
+
 #include <limits>
 #include <vector>
 
@@ -27,9 +29,3 @@ struct FrameSelection {
 };
 
 }  // namespace espalier::timeline
-
-namespace espalier {
-
-using timeline::FrameSelection;
-
-}  // namespace espalier

@@ -1,6 +1,7 @@
 // The last frame of a run, in memory instead of in a file.
 #pragma once
 
+#include "espalier/base/stations.h"
 #include "espalier/geometry/frame_geometry.h"
 #include "espalier/timeline/recorder.h"
 
@@ -40,9 +41,3 @@ private:
 };
 
 }  // namespace espalier::timeline
-
-namespace espalier {
-
-using timeline::LastFrame;
-
-}  // namespace espalier

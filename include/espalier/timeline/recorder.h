@@ -3,6 +3,7 @@
 
 #include "espalier/base/registry.h"
 #include "espalier/base/settings.h"
+#include "espalier/base/stations.h"
 #include "espalier/timeline/frame.h"
 
 #include <filesystem>
@@ -76,12 +77,3 @@ struct RecorderType {
 };
 
 }  // namespace espalier::timeline
-
-namespace espalier {
-
-using timeline::RecordedMemory;
-using timeline::Recorder;
-using timeline::RecorderContext;
-using timeline::RecorderType;
-
-}  // namespace espalier

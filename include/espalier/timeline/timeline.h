@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/base/file.h"
+#include "espalier/base/stations.h"
 #include "espalier/timeline/frame_selection.h"
 #include "espalier/timeline/recorder.h"
 
@@ -75,9 +76,3 @@ private:
 };
 
 }  // namespace espalier::timeline
-
-namespace espalier {
-
-using timeline::Timeline;
-
-}  // namespace espalier

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/base/error.h"
+#include "espalier/base/stations.h"
 #include "espalier/geometry/palette.h"
 #include "espalier/geometry/surface.h"
 
@@ -34,11 +35,3 @@ void read_background_text(std::string_view text, const std::string& name, const 
                           Background& background, std::vector<Diagnostic>& diagnostics);
 
 }  // namespace espalier::turtle
-
-namespace espalier {
-
-using turtle::Background;
-using turtle::read_background;
-using turtle::read_background_text;
-
-}  // namespace espalier

@@ -4,6 +4,7 @@
 #include "espalier/base/random.h"
 #include "espalier/base/registry.h"
 #include "espalier/base/settings.h"
+#include "espalier/base/stations.h"
 #include "espalier/geometry/plant_geometry.h"
 #include "espalier/lsystem/module_string.h"
 
@@ -47,13 +48,3 @@ std::shared_ptr<const GeometryStage> read_geometry_stage(Settings& table);
 void apply(const GeometryStages& stages, StagedPlant& plant);
 
 }  // namespace espalier::turtle
-
-namespace espalier {
-
-using turtle::GeometryStage;
-using turtle::GeometryStages;
-using turtle::GeometryStageType;
-using turtle::read_geometry_stage;
-using turtle::StagedPlant;
-
-}  // namespace espalier

@@ -1,6 +1,7 @@
 // Interpretation: a turtle walks the string and leaves geometry and queries. A function of its arguments.
 #pragma once
 
+#include "espalier/base/stations.h"
 #include "espalier/geometry/field_values.h"
 #include "espalier/geometry/plant_geometry.h"
 #include "espalier/lsystem/derivation.h"
@@ -58,15 +59,3 @@ void write_turtle_answers(std::span<const TurtleAnswer> answers, std::span<const
                           ModuleString& string);
 
 }  // namespace espalier::turtle
-
-namespace espalier {
-
-using turtle::fields_read_by;
-using turtle::interpret;
-using turtle::Interpretation;
-using turtle::InterpretOptions;
-using turtle::symbol_table;
-using turtle::SymbolTable;
-using turtle::write_turtle_answers;
-
-}  // namespace espalier

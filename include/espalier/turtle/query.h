@@ -1,6 +1,7 @@
 // What a plant asks: its surroundings, in questions stamped by the turtle that met them, or the turtle itself.
 #pragma once
 
+#include "espalier/base/stations.h"
 #include "espalier/geometry/plant_geometry.h"
 #include "espalier/lsystem/module_string.h"
 
@@ -64,14 +65,3 @@ struct TurtleDirection {
 using Answer = std::span<double>;
 
 }  // namespace espalier::turtle
-
-namespace espalier {
-
-using turtle::Answer;
-using turtle::Query;
-using turtle::QueryColumn;
-using turtle::TurtleAnswer;
-using turtle::TurtleDirection;
-using turtle::UnwrittenAllocator;
-
-}  // namespace espalier

@@ -1,6 +1,8 @@
 // Where a walk puts rows of one kind: at the end of a column, or in a stretch of it that was counted before.
 #pragma once
 
+#include "espalier/base/stations.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <span>

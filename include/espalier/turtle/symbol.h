@@ -3,6 +3,7 @@
 #pragma once
 
 #include "espalier/base/registry.h"
+#include "espalier/base/stations.h"
 #include "espalier/turtle/walk.h"
 
 #include <span>
@@ -40,11 +41,3 @@ struct SymbolGroup {
 };
 
 }  // namespace espalier::turtle
-
-namespace espalier {
-
-using turtle::Symbol;
-using turtle::SymbolAction;
-using turtle::SymbolGroup;
-
-}  // namespace espalier

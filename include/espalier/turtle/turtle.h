@@ -1,6 +1,7 @@
 // The turtle: a pose that moves and turns, with width, colour and scale.
 #pragma once
 
+#include "espalier/base/stations.h"
 #include "espalier/geometry/generalized_cylinder.h"
 #include "espalier/geometry/plant_geometry.h"
 #include "espalier/geometry/shapes.h"
@@ -126,25 +127,3 @@ void roll_by_torques(Pose& pose, std::span<const Tropism> tropisms, std::span<co
 void apply_older_tropism(Pose& pose, const glm::dvec3& direction, double elasticity);
 
 }  // namespace espalier::turtle
-
-namespace espalier {
-
-using turtle::apply_older_tropism;
-using turtle::apply_tropisms;
-using turtle::bend_by_tropisms;
-using turtle::Brush;
-using turtle::head_towards;
-using turtle::level;
-using turtle::LineStyle;
-using turtle::pitch_down;
-using turtle::roll_by_torques;
-using turtle::roll_left;
-using turtle::rotate_pair;
-using turtle::Rotation;
-using turtle::rotation_of_degrees;
-using turtle::Tropism;
-using turtle::turn_left;
-using turtle::TurtleSettings;
-using turtle::TurtleState;
-
-}  // namespace espalier

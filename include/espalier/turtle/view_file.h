@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/base/error.h"
+#include "espalier/base/stations.h"
 #include "espalier/language/reader.h"
 #include "espalier/turtle/background.h"
 #include "espalier/turtle/turtle.h"
@@ -66,13 +67,3 @@ View read_view_text(std::string_view text, const std::string& name, const Define
                     const std::filesystem::path& folder = {});
 
 }  // namespace espalier::turtle
-
-namespace espalier {
-
-using turtle::Camera;
-using turtle::Light;
-using turtle::read_view_file;
-using turtle::read_view_text;
-using turtle::View;
-
-}  // namespace espalier

@@ -1,6 +1,8 @@
 // What the settings of view files mean and take: for help and forms.
 #pragma once
 
+#include "espalier/base/stations.h"
+
 #include <limits>
 #include <span>
 #include <string_view>
@@ -35,12 +37,3 @@ struct ViewSetting {
 std::vector<ViewSetting> view_settings();
 
 }  // namespace espalier::turtle
-
-namespace espalier {
-
-using turtle::view_settings;
-using turtle::ViewKind;
-using turtle::ViewSetting;
-using turtle::ViewValue;
-
-}  // namespace espalier

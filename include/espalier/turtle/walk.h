@@ -1,6 +1,7 @@
 // The walk of one turtle along one string: what a symbol acts upon.
 #pragma once
 
+#include "espalier/base/stations.h"
 #include "espalier/geometry/free_form.h"
 #include "espalier/turtle/interpretation.h"
 #include "espalier/turtle/row_writer.h"
@@ -421,9 +422,3 @@ inline void Walk::set_width(double width) {
 }
 
 }  // namespace espalier::turtle
-
-namespace espalier {
-
-using turtle::Walk;
-
-}  // namespace espalier

@@ -1,6 +1,7 @@
 // A window on a run: look at it from all sides and at all times, also while it grows.
 #pragma once
 
+#include "espalier/base/stations.h"
 #include "espalier/picture/chart_page.h"
 #include "espalier/picture/picture_style.h"
 
@@ -40,12 +41,3 @@ void view_run(const std::filesystem::path& folder, const ViewOptions& options);
 std::string why_no_window();
 
 }  // namespace espalier::view
-
-namespace espalier {
-
-using view::SimulationState;
-using view::view_run;
-using view::ViewOptions;
-using view::why_no_window;
-
-}  // namespace espalier

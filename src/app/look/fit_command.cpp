@@ -23,10 +23,6 @@ namespace espalier::app {
 namespace {
 
 namespace fs = std::filesystem;
-using analysis::AxisMeasures;
-using analysis::FreeParameter;
-using analysis::LeastSquares;
-using analysis::MarkedPlant;
 
 /// A #define of the model that is fitted.
 struct Fitted {

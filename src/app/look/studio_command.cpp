@@ -27,8 +27,6 @@ namespace espalier::app {
 namespace {
 
 namespace fs = std::filesystem;
-using studio::LibraryEntry;
-using studio::Opened;
 
 std::atomic<bool> ended{false};
 

@@ -22,11 +22,3 @@ glm::dquat towards_eye(const glm::dvec3& place, const glm::dvec3& eye);
 FrameMesh card_mesh(const CardFrame& frame, const std::string& texture);
 
 }  // namespace espalier::archive
-
-namespace espalier {
-
-using archive::card_mesh;
-using archive::CardFrame;
-using archive::towards_eye;
-
-}  // namespace espalier

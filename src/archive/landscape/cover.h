@@ -17,10 +17,3 @@ struct Cover {
 std::vector<StandPlant> plants_of(const Cover& cover, const glm::dvec3& eye, std::uint64_t seed);
 
 }  // namespace espalier::archive
-
-namespace espalier {
-
-using archive::Cover;
-using archive::plants_of;
-
-}  // namespace espalier

@@ -81,18 +81,3 @@ LandscapeSpecies species_of(const FrameGeometry& geometry, const std::string& na
                             std::optional<double> radius, const LevelDistances& distances);
 
 }  // namespace espalier::archive
-
-namespace espalier {
-
-using archive::card_turns;
-using archive::degrees_of_turn;
-using archive::LandscapeSpecies;
-using archive::LevelDistances;
-using archive::planted;
-using archive::PlantedLandscape;
-using archive::PlantedPlant;
-using archive::species_of;
-using archive::stand_of;
-using archive::StandPlant;
-
-}  // namespace espalier

@@ -56,11 +56,3 @@ std::function<double(double x, double z)> heights_of_picture(const std::filesyst
                                                              const glm::dvec2& upper, double low, double high);
 
 }  // namespace espalier::archive
-
-namespace espalier {
-
-using archive::GroundColour;
-using archive::heights_of_picture;
-using archive::Terrain;
-
-}  // namespace espalier

@@ -22,18 +22,18 @@ void share_rings(std::span<const AxisPath> paths, std::vector<AxisLine>& lines) 
     struct Ring {
         std::size_t line, node;
     };
-    std::unordered_map<std::int32_t, glm::vec3> direction_at;
+    std::unordered_map<PointIndex, glm::vec3> direction_at;
     for (const AxisPath& path : paths) {
         for (const Fork& fork : path.forks) direction_at.emplace(fork.point, fork.across_of);
     }
-    std::unordered_map<std::int32_t, Ring> ring_at;
+    std::unordered_map<PointIndex, Ring> ring_at;
     for (std::size_t i = 0; i < lines.size(); ++i) {
         std::vector<TubeNode>& nodes = lines[i].line.nodes;
         for (std::size_t k = 1; k < nodes.size(); ++k) {
-            const auto fork = direction_at.find(nodes[k].row);
+            const auto fork = direction_at.find(nodes[k].point);
             if (fork == direction_at.end()) continue;
             nodes[k].across_of = fork->second;
-            ring_at[nodes[k].row] = {i, k};
+            ring_at[nodes[k].point] = {i, k};
         }
     }
     std::unordered_map<std::size_t, std::vector<TubeFrame>> frames_of;  // a path comes after what bears it

@@ -28,11 +28,3 @@ std::vector<AxisLine> axis_lines(const FrameGeometry& geometry, std::span<const 
 void dress_axes(FrameGeometry& geometry, const std::string& texture);
 
 }  // namespace espalier::archive
-
-namespace espalier {
-
-using archive::axis_lines;
-using archive::AxisLine;
-using archive::dress_axes;
-
-}  // namespace espalier

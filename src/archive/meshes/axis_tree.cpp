@@ -7,6 +7,8 @@
 namespace espalier::archive {
 namespace {
 
+using AxisIndex = AxisTree::AxisIndex;
+
 glm::vec3 direction(const FrameInternode& internode) {
     const glm::vec3 along = internode.tip - internode.base;
     const float length = glm::length(along);
@@ -14,17 +16,17 @@ glm::vec3 direction(const FrameInternode& internode) {
 }
 
 /// The axis that goes on where another ends; none if all that begin there turn back.
-std::int32_t continuation(const AxisTree& tree, const AxisTree::Axis& axis) {
-    const FrameInternode& last = tree.internodes[axis.end - 1];
-    std::int32_t best = FrameInternode::none;
+AxisIndex continuation(const AxisTree& tree, const AxisTree::Axis& axis) {
+    const FrameInternode& last = tree.internodes[axis.end.before()];
+    AxisIndex best;
     std::tuple<float, float> most{0, 0};
-    for (const std::uint32_t borne : tree.axes_borne[axis.end - 1]) {
+    for (const AxisIndex borne : tree.axes_borne[axis.end.before()]) {
         const FrameInternode& first = tree.internodes[tree.axes[borne].first];
         const float straight = glm::dot(direction(last), direction(first));
         if (first.base != last.tip || straight <= 0) continue;
         const std::tuple rank{first.base_radius, straight};
-        if (best >= 0 && rank <= most) continue;
-        best = static_cast<std::int32_t>(borne);
+        if (!best.is_none() && rank <= most) continue;
+        best = borne;
         most = rank;
     }
     return best;
@@ -35,7 +37,7 @@ float thickness(const FrameInternode& internode) {
 }
 
 /// Across what the ring at the tip of an internode stands; 0: no branches leave there, or all turn back.
-glm::vec3 fork_direction(const AxisTree& tree, const AxisTree::Axis& axis, std::uint32_t number) {
+glm::vec3 fork_direction(const AxisTree& tree, const AxisTree::Axis& axis, InternodeIndex number) {
     const FrameInternode& bearer = tree.internodes[number];
     glm::vec3 sum(0);
     int branches = 0;
@@ -45,8 +47,8 @@ glm::vec3 fork_direction(const AxisTree& tree, const AxisTree::Axis& axis, std::
         sum += thickness(branch) * along;
         ++branches;
     };
-    for (const std::uint32_t borne : tree.axes_borne[number]) add(tree.internodes[tree.axes[borne].first]);
-    if (branches > 0 && number + 1 < axis.end) add(tree.internodes[number + 1]);
+    for (const AxisIndex borne : tree.axes_borne[number]) add(tree.internodes[tree.axes[borne].first]);
+    if (branches > 0 && number.next() < axis.end) add(tree.internodes[number.next()]);
     const float length = glm::length(sum);
     return branches > 1 && length > 0 ? sum / length : glm::vec3(0);
 }
@@ -60,33 +62,29 @@ bool shares_ring(const FrameInternode& branch, const FrameInternode& bearer, con
 
 }  // namespace
 
-std::vector<std::uint32_t> AxisTree::trunks() const {
-    std::vector<std::uint32_t> result;
-    for (std::uint32_t i = 0; i < axes.size(); ++i) {
-        if (axes[i].bearer == FrameInternode::none) result.push_back(i);
+std::vector<AxisIndex> AxisTree::trunks() const {
+    std::vector<AxisIndex> result;
+    for (AxisIndex i(0); i < axes.next(); ++i) {
+        if (axes[i].bearer.is_none()) result.push_back(i);
     }
     return result;
 }
 
 AxisTree axis_tree(const FrameGeometry& geometry, const MeshOptions& options) {
     AxisTree tree;
-    std::vector<std::int32_t> number(geometry.lines.connectivity.size(), FrameInternode::none);
     const std::vector<FrameInternode> all = internodes_of(geometry);
+    std::vector<InternodeIndex> number(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
         FrameInternode internode = all[i];
         if (options.plant && internode.plant != *options.plant) continue;
-        const auto here = static_cast<std::uint32_t>(tree.internodes.size());
-        number[i] = static_cast<std::int32_t>(here);
-        if (internode.bearer >= 0) internode.bearer = number[static_cast<std::size_t>(internode.bearer)];
+        const InternodeIndex here = number[i] = tree.internodes.next();
+        if (!internode.bearer.is_none()) internode.bearer = number[internode.bearer.row()];
         const bool begins = tree.axes.empty() || tree.internodes.back().axis != internode.axis;
         if (begins) {
+            if (!internode.bearer.is_none()) tree.axes_borne[internode.bearer].push_back(tree.axes.next());
             tree.axes.push_back({internode.plant, here, here, internode.bearer});
-            if (internode.bearer >= 0) {
-                tree.axes_borne[static_cast<std::size_t>(internode.bearer)].push_back(
-                    static_cast<std::uint32_t>(tree.axes.size() - 1));
-            }
         }
-        tree.axes.back().end = here + 1;
+        tree.axes.back().end = here.next();
         tree.internodes.push_back(internode);
         tree.axes_borne.emplace_back();
     }
@@ -95,33 +93,33 @@ AxisTree axis_tree(const FrameGeometry& geometry, const MeshOptions& options) {
 
 std::vector<AxisPath> axis_paths(const FrameGeometry& geometry, const MeshOptions& options) {
     const AxisTree tree = axis_tree(geometry, options);
-    std::vector<std::int32_t> next;
-    std::vector<bool> continues(tree.axes.size(), false);
+    RowsOf<AxisTree::Axis, AxisIndex> next;
+    RowsOf<AxisTree::Axis, bool> continues(tree.axes.size(), false);
     for (const AxisTree::Axis& axis : tree.axes) {
         next.push_back(continuation(tree, axis));
-        if (next.back() >= 0) continues[static_cast<std::size_t>(next.back())] = true;
+        if (!next.back().is_none()) continues[next.back()] = true;
     }
-    std::vector<glm::vec3> forks(tree.internodes.size(), glm::vec3(0));
+    RowsOf<FrameInternode, glm::vec3> forks(tree.internodes.size(), glm::vec3(0));
     for (const AxisTree::Axis& axis : tree.axes) {
-        for (std::uint32_t k = axis.first; k < axis.end; ++k) forks[k] = fork_direction(tree, axis, k);
+        for (InternodeIndex k = axis.first; k < axis.end; ++k) forks[k] = fork_direction(tree, axis, k);
     }
     std::vector<AxisPath> paths;
-    for (std::size_t i = 0; i < tree.axes.size(); ++i) {
+    for (AxisIndex i(0); i < tree.axes.next(); ++i) {
         if (continues[i]) continue;
         const FrameInternode& first = tree.internodes[tree.axes[i].first];
         AxisPath& path = paths.emplace_back();
         path.plant = first.plant;
-        path.row = geometry.lines.first + first.axis;
-        path.stands_free = tree.axes[i].bearer == FrameInternode::none;
+        path.row = geometry.lines.first + first.axis.row();
+        path.stands_free = tree.axes[i].bearer.is_none();
         path.points.push_back(first.base_point);
         if (!path.stands_free) {
-            const auto number = static_cast<std::size_t>(tree.axes[i].bearer);
+            const InternodeIndex number = tree.axes[i].bearer;
             const FrameInternode& bearer = tree.internodes[number];
             if (shares_ring(first, bearer, forks[number])) path.first_ring = bearer.tip_point;
         }
-        for (auto at = static_cast<std::int32_t>(i); at >= 0; at = next[static_cast<std::size_t>(at)]) {
-            const AxisTree::Axis& axis = tree.axes[static_cast<std::size_t>(at)];
-            for (std::uint32_t k = axis.first; k < axis.end; ++k) {
+        for (AxisIndex at = i; !at.is_none(); at = next[at]) {
+            const AxisTree::Axis& axis = tree.axes[at];
+            for (InternodeIndex k = axis.first; k < axis.end; ++k) {
                 path.points.push_back(tree.internodes[k].tip_point);
                 if (forks[k] != glm::vec3(0)) path.forks.push_back({path.points.back(), forks[k]});
             }

@@ -8,25 +8,27 @@
 
 namespace espalier::archive {
 
+/// Internodes are numbered anew, without those of plants that were not asked for.
 struct AxisTree {
     struct Axis {
         std::uint32_t plant;
-        std::uint32_t first, end;  ///< internodes
-        std::int32_t bearer;       ///< the internode it stands on, or FrameInternode::none
+        InternodeIndex first, end;
+        InternodeIndex bearer;  ///< the internode it stands on, or none
     };
+    using AxisIndex = Index<Axis>;
 
-    std::vector<FrameInternode> internodes;
-    std::vector<Axis> axes;                              ///< plant after plant, each after the axis it stands on
-    std::vector<std::vector<std::uint32_t>> axes_borne;  ///< by each internode
+    RowsOf<FrameInternode, FrameInternode> internodes;
+    RowsOf<Axis, Axis> axes;  ///< plant after plant, each after the axis it stands on
+    RowsOf<FrameInternode, std::vector<AxisIndex>> axes_borne;
 
     /// Axes that stand on none, in their order.
-    std::vector<std::uint32_t> trunks() const;
+    std::vector<AxisIndex> trunks() const;
 };
 
 /// Where branches leave an axis: the ring there stands across the mean of their directions, weighted with their radii
 /// (Brzoska 2019, Interaktive Pflanzenmodellierung, figure 29).
 struct Fork {
-    std::int32_t point;
+    PointIndex point;
     glm::vec3 across_of;  ///< unit vector
 };
 
@@ -34,10 +36,10 @@ struct Fork {
 struct AxisPath {
     std::uint32_t plant;
     std::size_t row;  ///< row of `of_cells` of the axis it begins with
-    std::vector<std::int32_t> points;
+    std::vector<PointIndex> points;
     bool stands_free = true;  ///< on no other axis
     std::vector<Fork> forks = {};
-    std::int32_t first_ring = FrameInternode::none;  ///< the fork whose ring it shares; none: it has one of its own
+    PointIndex first_ring = {};  ///< the fork whose ring it shares; none: it has one of its own
 };
 
 /// Axes joined for drawing: where one ends and others begin, the thickest of them goes on, of equals the straightest.
@@ -47,13 +49,3 @@ std::vector<AxisPath> axis_paths(const FrameGeometry& geometry, const MeshOption
 AxisTree axis_tree(const FrameGeometry& geometry, const MeshOptions& options);
 
 }  // namespace espalier::archive
-
-namespace espalier {
-
-using archive::axis_paths;
-using archive::axis_tree;
-using archive::AxisPath;
-using archive::AxisTree;
-using archive::Fork;
-
-}  // namespace espalier

@@ -69,14 +69,3 @@ OpacityPicture grey_of(const HeightMap& map);
 OpacityPicture normals_of(const Bark& bark, const HeightMap& map);
 
 }  // namespace espalier::archive
-
-namespace espalier {
-
-using archive::Bark;
-using archive::BarkRelief;
-using archive::HeightMap;
-using archive::is_bark;
-using archive::pictures_around;
-using archive::read_bark;
-
-}  // namespace espalier

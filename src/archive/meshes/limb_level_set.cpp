@@ -35,7 +35,7 @@ struct PlaceHash {
 };
 
 /// A leaf of the level set and the pieces that matter in it.
-struct Block {
+struct VoxelBlock {
     BlockPlace place;
     std::vector<std::uint32_t> pieces;
     std::vector<double> distances;  ///< distances of its centre from them
@@ -87,7 +87,7 @@ struct LimbLevelSet::Body {
     const LimbUnion& limbs;
     double voxel;
     glm::dvec3 origin{std::numeric_limits<double>::infinity()};
-    std::vector<Block> blocks;
+    std::vector<VoxelBlock> blocks;
     std::unordered_map<BlockPlace, std::size_t, PlaceHash> number_at;
     openvdb::FloatGrid::Ptr grid;
 
@@ -158,7 +158,7 @@ struct LimbLevelSet::Body {
         openvdb::tools::signedFloodFill(grid->tree());
     }
 
-    std::unique_ptr<Leaf> leaf_of(const Block& block) const {
+    std::unique_ptr<Leaf> leaf_of(const VoxelBlock& block) const {
         const auto background = static_cast<float>(half_band * voxel);
         const openvdb::Coord first(block_width * block.place[0], block_width * block.place[1],
                                    block_width * block.place[2]);

@@ -19,10 +19,3 @@ struct PieceLimit {
 std::vector<FrameMesh> pieces_of(const FrameMesh& mesh, const PieceLimit& limit);
 
 }  // namespace espalier::archive
-
-namespace espalier {
-
-using archive::PieceLimit;
-using archive::pieces_of;
-
-}  // namespace espalier

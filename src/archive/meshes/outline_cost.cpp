@@ -87,7 +87,7 @@ private:
         Deviation last{0, 0};
         for (std::size_t i = from + 1; i <= to; ++i) {
             Deviation now = deviation(nodes_[i], nodes_[from], nodes_[to]);
-            if (i < to && !same_look(of_, nodes_[i].row, nodes_[i + 1].row)) {
+            if (i < to && !same_look(of_, nodes_[i].point, nodes_[i + 1].point)) {
                 now.middle = std::max(now.middle, double(nodes_[i].radius));
             }
             const double width = double(nodes_[i - 1].radius) + nodes_[i].radius;

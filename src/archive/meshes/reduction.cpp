@@ -185,7 +185,9 @@ private:
     std::vector<double> areas_of_organs(const FrameAttributes& of_points) const {
         std::vector<double> result(tubes_.size(), 0);
         if (!limits_.keeps_outline) return result;
-        const auto plant_of = [&](std::size_t tube) { return of_points.plants[tubes_[tube].line.nodes.back().row]; };
+        const auto plant_of = [&](std::size_t tube) {
+            return of_points.plants[tubes_[tube].line.nodes.back().point.row()];
+        };
         std::map<std::uint32_t, double> areas, feet;
         for (std::size_t i = 0; i < organs_.parts.size(); ++i) areas[organs_.parts[i].plant] += organ_states_[i].area;
         for (std::size_t i = 0; i < tubes_.size(); ++i) feet[plant_of(i)] += bearer_[i] == i;

@@ -105,7 +105,7 @@ Limb limb_of(const TubeLine& whole, double voxel) {
             const double t = static_cast<double>(k) / pieces;
             const double radius = nodes[i - 1].radius + t * (double(nodes[i].radius) - nodes[i - 1].radius);
             const glm::vec3 place = k == pieces ? nodes[i].position : glm::vec3(on_curve(a, b, before, behind, t));
-            limb.curve.nodes.push_back({place, static_cast<float>(radius), nodes[i].row});
+            limb.curve.nodes.push_back({place, static_cast<float>(radius), nodes[i].point});
             limb.node_of.push_back(number[i]);
         }
     }

@@ -22,9 +22,3 @@ double skin_voxel(std::span<const AxisLine> lines, const AxisSkin& skin);
 std::vector<Tube> skin_of(std::span<const AxisLine> lines, std::span<const int> sides, const AxisSkin& skin);
 
 }  // namespace espalier::archive
-
-namespace espalier {
-
-using archive::skin_of;
-
-}  // namespace espalier

@@ -144,7 +144,7 @@ private:
         std::vector<std::uint32_t> materials;
         std::vector<Rgb> colours;
         for (const TubeNode& node : line.nodes) {
-            colours.push_back(colour_of(geometry_.of_points, static_cast<std::size_t>(node.row)));
+            colours.push_back(colour_of(geometry_.of_points, node.point.row()));
             materials.push_back(material(worn(colours.back(), texture)));
         }
         const auto origin = static_cast<std::uint32_t>(mesh_.points.size());

@@ -68,20 +68,3 @@ float thinnest_radius(const FrameGeometry& geometry);
 std::string part_name(const RecordedRun& run, const MeshPart& part, std::size_t number);
 
 }  // namespace espalier::archive
-
-namespace espalier {
-
-using archive::by_plant;
-using archive::colour_of;
-using archive::FrameMesh;
-using archive::mesh_of;
-using archive::MeshMaterial;
-using archive::MeshPart;
-using archive::part_name;
-using archive::Rgb;
-using archive::surfaces_of;
-using archive::thinnest_radius;
-using archive::tubes_of;
-using archive::upright;
-
-}  // namespace espalier

@@ -29,12 +29,3 @@ std::optional<BarkRelief> bark_relief(const std::filesystem::path& run, const st
 ReliefImages relief_images(const std::filesystem::path& run, const std::string& file);
 
 }  // namespace espalier::archive
-
-namespace espalier {
-
-using archive::bark_relief;
-using archive::relief_images;
-using archive::ReliefImages;
-using archive::texture_image;
-
-}  // namespace espalier

@@ -50,7 +50,7 @@ std::vector<TubeNode> simplified(const std::vector<TubeNode>& nodes, const Frame
     keep.front() = keep.back() = true;
     std::size_t begin = 0;
     for (std::size_t i = 1; i < nodes.size(); ++i) {
-        const bool ends = i + 1 == nodes.size() || !same_look(of, nodes[i].row, nodes[i + 1].row);
+        const bool ends = i + 1 == nodes.size() || !same_look(of, nodes[i].point, nodes[i + 1].point);
         if (!ends) continue;
         keep[i] = true;
         mark(nodes, begin, i, tolerance, keep);
@@ -173,17 +173,17 @@ float radius_of(const FrameGeometry& geometry, std::size_t row, float thinnest) 
 
 }  // namespace
 
-bool same_look(const FrameAttributes& of, std::int32_t a, std::int32_t b) {
-    const auto i = static_cast<std::size_t>(a), k = static_cast<std::size_t>(b);
+bool same_look(const FrameAttributes& of, PointIndex a, PointIndex b) {
+    const std::size_t i = a.row(), k = b.row();
     return of.colours[i] == of.colours[k] && (of.rgb.empty() || of.rgb[i] == of.rgb[k]);
 }
 
-TubeLine tube_line(const FrameGeometry& geometry, std::span<const std::int32_t> points, double tolerance,
+TubeLine tube_line(const FrameGeometry& geometry, std::span<const PointIndex> points, double tolerance,
                    float thinnest) {
     std::vector<TubeNode> nodes;
     float thickest = 0;
-    for (const std::int32_t point : points) {
-        const auto row = static_cast<std::size_t>(point);
+    for (const PointIndex point : points) {
+        const std::size_t row = point.row();
         const float radius = radius_of(geometry, row, thinnest);
         thickest = std::max(thickest, radius);
         const bool moved = nodes.empty() || nodes.back().position != geometry.points[row];
@@ -215,7 +215,7 @@ std::vector<double> node_errors(const TubeLine& line, const FrameAttributes& of_
         double error = -1;
         for (std::size_t i = from + 1; i < to; ++i) {
             double off = deviation(nodes[i], nodes[from], nodes[to]);
-            if (!same_look(of_points, nodes[i].row, nodes[i + 1].row)) off = std::max(off, double(nodes[i].radius));
+            if (!same_look(of_points, nodes[i].point, nodes[i + 1].point)) off = std::max(off, double(nodes[i].radius));
             if (off <= error) continue;
             error = off;
             worst = i;

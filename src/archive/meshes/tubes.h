@@ -14,7 +14,7 @@ namespace espalier::archive {
 struct TubeNode {
     glm::vec3 position;
     float radius;
-    std::int32_t row;        ///< the frame's point, whose attributes hold from the node before on
+    PointIndex point;        ///< of the frame, whose attributes hold from the node before on
     glm::vec3 across_of{0};  ///< the ring stands across this direction; 0: halfway between the pieces it joins
 };
 
@@ -35,11 +35,10 @@ struct TubeLine {
 /// The nodes of an axis: no two neighbours in one place; nodes left out where middle line and radius stray no more than
 /// `tolerance` from them and no colour changes (Douglas and Peucker 1973). Radii of 0 become `thinnest`, tips that
 /// taper to nothing a thousandth of the axis's thickest; widths in pixels count in widths of the thinnest.
-TubeLine tube_line(const FrameGeometry& geometry, std::span<const std::int32_t> points, double tolerance,
-                   float thinnest);
+TubeLine tube_line(const FrameGeometry& geometry, std::span<const PointIndex> points, double tolerance, float thinnest);
 
-/// Whether two rows have one colour.
-bool same_look(const FrameAttributes& of, std::int32_t a, std::int32_t b);
+/// Whether two points have one colour.
+bool same_look(const FrameAttributes& of_points, PointIndex a, PointIndex b);
 
 /// How far middle line and radius stray once a node and all that stray less have left; infinite at both ends. Where the
 /// colour changes it is the radius at least.
@@ -77,15 +76,3 @@ constexpr std::size_t swept_triangles(std::size_t nodes, int sides, Caps caps) {
 Tube sweep(const TubeLine& line, int sides, Caps caps = Caps::round);
 
 }  // namespace espalier::archive
-
-namespace espalier {
-
-using archive::sweep;
-using archive::Tube;
-using archive::tube_line;
-using archive::TubeLine;
-using archive::TubeNode;
-using archive::TubeTriangle;
-using archive::TubeVertex;
-
-}  // namespace espalier

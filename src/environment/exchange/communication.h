@@ -65,9 +65,3 @@ private:
 };
 
 }  // namespace espalier::environment
-
-namespace espalier {
-
-using environment::TurtleFormat;
-
-}  // namespace espalier

@@ -67,9 +67,3 @@ private:
 };
 
 }  // namespace espalier::environment
-
-namespace espalier {
-
-using environment::ShadeField;
-
-}  // namespace espalier

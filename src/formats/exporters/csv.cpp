@@ -86,7 +86,7 @@ private:
     }
 
     void add_internode(const RecordedFrame& frame, const FrameGeometry& geometry, const FrameInternode& internode) {
-        const auto point = static_cast<std::size_t>(internode.tip_point);
+        const std::size_t point = internode.tip_point.row();
         begin_row(frame, geometry,
                   {"internode", internode.plant, internode.symbol, internode.order, internode.colour,
                    internode.identity, internode.parent, internode.birth});

@@ -24,7 +24,7 @@ public:
     std::string text() {
         add_head();
         int number = 0;
-        for (const std::uint32_t trunk : tree_.trunks()) {
+        for (const AxisIndex trunk : tree_.trunks()) {
             prefix_ = fmt::format("/P{}", ++number);
             add_with_laterals(trunk);
         }
@@ -32,12 +32,16 @@ public:
     }
 
 private:
+    using AxisIndex = AxisTree::AxisIndex;
+    using Columns = RowsOf<AxisTree::Axis, std::uint32_t>;
+
     // Each axis stands one column to the right of what bears it.
-    static std::vector<std::uint32_t> columns(const AxisTree& tree) {
-        std::vector<std::uint32_t> of_axis, of_internode(tree.internodes.size());
+    static Columns columns(const AxisTree& tree) {
+        Columns of_axis;
+        RowsOf<FrameInternode, std::uint32_t> of_internode(tree.internodes.size());
         for (const AxisTree::Axis& axis : tree.axes) {
-            of_axis.push_back(axis.bearer < 0 ? 0 : of_internode[static_cast<std::size_t>(axis.bearer)] + 1);
-            std::fill(of_internode.begin() + axis.first, of_internode.begin() + axis.end, of_axis.back());
+            of_axis.push_back(axis.bearer.is_none() ? 0 : of_internode[axis.bearer] + 1);
+            for (InternodeIndex i = axis.first; i < axis.end; ++i) of_internode[i] = of_axis.back();
         }
         return of_axis;
     }
@@ -60,9 +64,10 @@ private:
     }
 
     // What an internode bears stands below it, before its successor; any number of orders, so no recursion.
-    void add_with_laterals(std::uint32_t trunk) {
+    void add_with_laterals(AxisIndex trunk) {
         struct Open {
-            std::uint32_t axis, internode;
+            AxisIndex axis;
+            InternodeIndex internode;
             std::size_t lateral;
         };
         std::vector<Open> open{{trunk, tree_.axes[trunk].first, 0}};
@@ -70,10 +75,10 @@ private:
         while (!open.empty()) {
             Open& top = open.back();
             if (top.lateral < tree_.axes_borne[top.internode].size()) {
-                const std::uint32_t lateral = tree_.axes_borne[top.internode][top.lateral++];
+                const AxisIndex lateral = tree_.axes_borne[top.internode][top.lateral++];
                 open.push_back({lateral, tree_.axes[lateral].first, 0});
                 add_internode(lateral, tree_.axes[lateral].first);
-            } else if (top.internode + 1 < tree_.axes[top.axis].end) {
+            } else if (top.internode.next() < tree_.axes[top.axis].end) {
                 ++top.internode;
                 top.lateral = 0;
                 add_internode(top.axis, top.internode);
@@ -83,13 +88,13 @@ private:
         }
     }
 
-    std::string code(std::uint32_t axis, std::uint32_t internode) const {
-        if (internode > tree_.axes[axis].first) return fmt::format("^<I{}", internode + 1);
-        const bool trunk = tree_.axes[axis].bearer < 0;
-        return fmt::format("{}A{}/I{}", trunk ? prefix_ + "/" : "+", axis + 1, internode + 1);
+    std::string code(AxisIndex axis, InternodeIndex internode) const {
+        if (internode > tree_.axes[axis].first) return fmt::format("^<I{}", internode.number + 1);
+        const bool trunk = tree_.axes[axis].bearer.is_none();
+        return fmt::format("{}A{}/I{}", trunk ? prefix_ + "/" : "+", axis.number + 1, internode.number + 1);
     }
 
-    void add_internode(std::uint32_t axis, std::uint32_t number) {
+    void add_internode(AxisIndex axis, InternodeIndex number) {
         const FrameInternode& internode = tree_.internodes[number];
         const glm::vec3 tip = upright(internode.tip, job_.options.up);
         const std::uint32_t column = column_of_[axis];
@@ -109,7 +114,7 @@ private:
 
     const ExportJob& job_;
     const AxisTree& tree_;
-    std::vector<std::uint32_t> column_of_;  ///< column of each axis
+    Columns column_of_;
     std::size_t width_ = 1;
     std::string prefix_;
     std::string text_;

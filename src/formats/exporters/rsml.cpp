@@ -16,6 +16,8 @@
 namespace espalier::formats {
 namespace {
 
+using AxisIndex = AxisTree::AxisIndex;
+
 class RsmlText {
 public:
     RsmlText(const ExportJob& job, const RecordedFrame& frame, const AxisTree& tree)
@@ -23,7 +25,7 @@ public:
 
     std::string text() {
         add_head();
-        const std::vector<std::uint32_t> trunks = tree_.trunks();
+        const std::vector<AxisIndex> trunks = tree_.trunks();
         for (std::size_t i = 0; i < trunks.size(); ++i) {
             const std::uint32_t plant = tree_.axes[trunks[i]].plant;
             if (i == 0 || tree_.axes[trunks[i - 1]].plant != plant) {
@@ -64,13 +66,14 @@ private:
     }
 
     // Laterals of laterals without recursion: there may be any number of orders.
-    void add_with_laterals(std::uint32_t trunk) {
+    void add_with_laterals(AxisIndex trunk) {
         struct Open {
-            std::uint32_t axis, internode;
+            AxisIndex axis;
+            InternodeIndex internode;
             std::size_t lateral;
         };
         std::vector<Open> open;
-        const auto begin = [&](std::uint32_t axis) {
+        const auto begin = [&](AxisIndex axis) {
             begin_axis(axis, open.size());
             open.push_back({axis, tree_.axes[axis].first, 0});
         };
@@ -89,15 +92,15 @@ private:
         }
     }
 
-    void begin_axis(std::uint32_t number, std::size_t depth) {
+    void begin_axis(AxisIndex number, std::size_t depth) {
         const AxisTree::Axis& axis = tree_.axes[number];
         const FrameInternode& first = tree_.internodes[axis.first];
         double length = 0;
-        for (std::uint32_t i = axis.first; i < axis.end; ++i) {
+        for (InternodeIndex i = axis.first; i < axis.end; ++i) {
             length += glm::distance(tree_.internodes[i].base, tree_.internodes[i].tip);
         }
         // Plant Ontology: primary root, lateral root.
-        put("      <root ID=\"{}\" label=\"axis {}\" po:accession=\"{}\">\n", number, number,
+        put("      <root ID=\"{}\" label=\"axis {}\" po:accession=\"{}\">\n", number.number, number.number,
             depth == 0 ? "PO:0020127" : "PO:0020121");
         put("        <properties>\n          <length value=\"{}\"/>\n          <birth value=\"{}\"/>\n"
             "          <order value=\"{}\"/>\n          <identity value=\"{}\"/>\n",
@@ -109,30 +112,30 @@ private:
 
     /// The node of the bearing axis, from 0, that an axis stands on: the tip of its bearer, or where both begin.
     std::int32_t node_of_bearer(const AxisTree::Axis& axis) const {
-        const auto bearer = static_cast<std::uint32_t>(axis.bearer);
+        const InternodeIndex bearer = axis.bearer;
         const auto bearing = std::find_if(tree_.axes.begin(), tree_.axes.end(), [&](const AxisTree::Axis& other) {
             return other.first <= bearer && bearer < other.end;
         });
         const glm::vec3 base = tree_.internodes[axis.first].base;
         const FrameInternode& internode = tree_.internodes[bearer];
         const bool at_tip = glm::distance(base, internode.tip) <= glm::distance(base, internode.base);
-        return static_cast<std::int32_t>(bearer - bearing->first) + (at_tip ? 1 : 0);
+        return bearer.number - bearing->first.number + (at_tip ? 1 : 0);
     }
 
     void add_geometry(const AxisTree::Axis& axis) {
         const FrameInternode& first = tree_.internodes[axis.first];
         put("        <geometry>\n          <polyline>\n");
         add_point(first.base);
-        for (std::uint32_t i = axis.first; i < axis.end; ++i) add_point(tree_.internodes[i].tip);
+        for (InternodeIndex i = axis.first; i < axis.end; ++i) add_point(tree_.internodes[i].tip);
         put("          </polyline>\n        </geometry>\n        <functions>\n"
             "          <function name=\"diameter\" domain=\"polyline\">\n");
         put("            <sample>{}</sample>\n", 2 * first.base_radius);
-        for (std::uint32_t i = axis.first; i < axis.end; ++i) {
+        for (InternodeIndex i = axis.first; i < axis.end; ++i) {
             put("            <sample>{}</sample>\n", 2 * tree_.internodes[i].tip_radius);
         }
         put("          </function>\n          <function name=\"node_creation_time\" domain=\"polyline\">\n");
         add_time(first.birth);
-        for (std::uint32_t i = axis.first; i < axis.end; ++i) add_time(tree_.internodes[i].birth);
+        for (InternodeIndex i = axis.first; i < axis.end; ++i) add_time(tree_.internodes[i].birth);
         put("          </function>\n        </functions>\n");
     }
 

@@ -145,8 +145,8 @@ std::vector<Curves> curves_of(const FrameGeometry& geometry, const ExportJob& jo
             curves.points.push_back(upright(node.position, job.options.up));
             curves.widths.push_back(2 * node.radius);
             curves.widest = std::max(curves.widest, 2 * node.radius);
-            curves.rgb.push_back(colour_of(geometry.of_points, static_cast<std::size_t>(node.row)));
-            curves.births.push_back(geometry.of_points.births[static_cast<std::size_t>(node.row)]);
+            curves.rgb.push_back(colour_of(geometry.of_points, node.point.row()));
+            curves.births.push_back(geometry.of_points.births[node.point.row()]);
         }
     }
     return result;

@@ -77,12 +77,3 @@ private:
 };
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::DrawnFace;
-using geometry::DrawnFaces;
-using geometry::FaceOf;
-using geometry::FaceOwner;
-
-}  // namespace espalier

@@ -34,24 +34,24 @@ class Bearers {
 public:
     explicit Bearers(const std::vector<FrameInternode>& internodes) : internodes_(internodes) {}
 
-    std::int32_t of(const FrameInternode& first) const {
+    InternodeIndex of(const FrameInternode& first) const {
         const Spot spot{first.plant, first.base};
-        const std::int32_t ended = best(tips_, spot, first.order);
-        return ended != FrameInternode::none ? ended : best(bases_, spot, first.order);
+        const InternodeIndex ended = best(tips_, spot, first.order);
+        return ended.is_none() ? best(bases_, spot, first.order) : ended;
     }
 
-    void add(std::int32_t number) {
-        const FrameInternode& internode = internodes_[static_cast<std::size_t>(number)];
+    void add(InternodeIndex number) {
+        const FrameInternode& internode = internodes_[number.row()];
         put(tips_[{internode.plant, internode.tip}], internode.order, number);
         put(bases_[{internode.plant, internode.base}], internode.order, number);
     }
 
 private:
     /// The last internode of each order at one spot: any number of axes may meet there.
-    using Candidates = std::vector<std::pair<std::uint16_t, std::int32_t>>;
+    using Candidates = std::vector<std::pair<std::uint16_t, InternodeIndex>>;
     using Spots = std::unordered_map<Spot, Candidates, SpotHash>;
 
-    static void put(Candidates& candidates, std::uint16_t order, std::int32_t number) {
+    static void put(Candidates& candidates, std::uint16_t order, InternodeIndex number) {
         for (auto& [known, last] : candidates) {
             if (known != order) continue;
             last = number;
@@ -61,23 +61,23 @@ private:
     }
 
     // The last of lower order; if none is of lower order, the last.
-    static std::int32_t best(const Spots& spots, const Spot& spot, std::uint16_t order) {
-        std::int32_t lower = FrameInternode::none, any = FrameInternode::none;
+    static InternodeIndex best(const Spots& spots, const Spot& spot, std::uint16_t order) {
+        InternodeIndex lower, any;
         const auto found = spots.find(spot);
         if (found == spots.end()) return any;
         for (const auto& [known, last] : found->second) {
             any = std::max(any, last);
             if (known < order) lower = std::max(lower, last);
         }
-        return lower != FrameInternode::none ? lower : any;
+        return lower.is_none() ? any : lower;
     }
 
     const std::vector<FrameInternode>& internodes_;
     Spots tips_, bases_;
 };
 
-FrameInternode internode(const FrameGeometry& geometry, std::size_t line, std::int32_t base, std::int32_t tip) {
-    const auto from = static_cast<std::size_t>(base), to = static_cast<std::size_t>(tip);
+FrameInternode internode(const FrameGeometry& geometry, LineIndex line, PointIndex base, PointIndex tip) {
+    const std::size_t from = base.row(), to = tip.row();
     const FrameAttributes& of = geometry.of_points;
     return {geometry.points[from],
             geometry.points[to],
@@ -90,8 +90,8 @@ FrameInternode internode(const FrameGeometry& geometry, std::size_t line, std::i
             of.orders[to],
             of.colours[to],
             of.births[to],
-            static_cast<std::uint32_t>(line),
-            FrameInternode::none,
+            line,
+            InternodeIndex(),
             base,
             tip};
 }
@@ -106,11 +106,12 @@ std::vector<FrameInternode> internodes_of(const FrameGeometry& geometry) {
         const auto points = geometry.lines[line];
         const std::size_t first = internodes.size();
         for (std::size_t i = 1; i < points.size(); ++i) {
-            FrameInternode next = internode(geometry, line, points[i - 1], points[i]);
-            next.bearer = i == 1 ? bearers.of(next) : static_cast<std::int32_t>(internodes.size()) - 1;
+            FrameInternode next =
+                internode(geometry, LineIndex(line), PointIndex(points[i - 1]), PointIndex(points[i]));
+            next.bearer = i == 1 ? bearers.of(next) : InternodeIndex(internodes.size() - 1);
             internodes.push_back(next);
         }
-        for (std::size_t i = first; i < internodes.size(); ++i) bearers.add(static_cast<std::int32_t>(i));
+        for (std::size_t i = first; i < internodes.size(); ++i) bearers.add(InternodeIndex(i));
     }
     return internodes;
 }

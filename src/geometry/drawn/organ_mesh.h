@@ -92,11 +92,3 @@ std::array<glm::dvec3, 4> rhombus_of(const Organ& organ);
 SurfaceVertex placed(const SurfaceVertex& vertex, const Organ& organ);
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::OrganMeshes;
-using geometry::rhombus_of;
-using geometry::SurfaceMeshes;
-
-}  // namespace espalier

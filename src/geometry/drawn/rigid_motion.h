@@ -29,11 +29,3 @@ using MotionOfModule = std::function<const RigidMotion*(std::uint32_t module, co
 void move_organs(PlantGeometry& geometry, const MotionOfModule& motion_of);
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::move_organs;
-using geometry::RigidMotion;
-using geometry::turn_about;
-
-}  // namespace espalier

@@ -17,9 +17,3 @@ inline bool has_only_active_values(const openvdb::FloatGrid& grid) {
 }
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::use_only_active_values;
-
-}  // namespace espalier

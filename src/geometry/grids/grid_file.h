@@ -30,13 +30,3 @@ std::shared_ptr<const FieldGrid> grid_from_bytes(const std::string& bytes);
 void write_vdb(const std::filesystem::path& path, const Field& field);
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::bytes_of;
-using geometry::digest_of;
-using geometry::grid_of;
-using geometry::most_dense_voxels;
-using geometry::write_vdb;
-
-}  // namespace espalier

@@ -57,10 +57,3 @@ private:
 };
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::moved_by;
-using geometry::RayScene;
-
-}  // namespace espalier

@@ -47,16 +47,3 @@ Surface read_object_text(std::string_view text, const std::string& name, double 
 Surface read_object(const std::filesystem::path& path, double size);
 
 }  // namespace espalier::geometry
-
-namespace espalier {
-
-using geometry::read_contour;
-using geometry::read_contour_text;
-using geometry::read_object;
-using geometry::read_object_text;
-using geometry::read_surface;
-using geometry::read_surface_text;
-using geometry::read_triangles;
-using geometry::read_triangles_text;
-
-}  // namespace espalier

@@ -22,9 +22,3 @@ std::shared_ptr<const SourceText> preprocess_text(std::string_view text, const s
                                                   const ReadOptions& options = {});
 
 }  // namespace espalier::language
-
-namespace espalier {
-
-using language::preprocess_text;
-
-}  // namespace espalier

@@ -12,8 +12,6 @@
 
 namespace espalier::language {
 
-using geometry::ControlPoints;
-
 /// A member of a function set; the name is cut at its last dot.
 struct NamedFunction {
     std::string name;
@@ -41,15 +39,3 @@ SpaceCurve read_curve_text(std::string_view text, const std::string& name, int s
 SpaceCurve read_curve_file(const std::filesystem::path& path, int samples = 100);
 
 }  // namespace espalier::language
-
-namespace espalier {
-
-using language::NamedFunction;
-using language::read_curve_file;
-using language::read_curve_text;
-using language::read_function_file;
-using language::read_function_set;
-using language::read_function_set_text;
-using language::read_function_text;
-
-}  // namespace espalier

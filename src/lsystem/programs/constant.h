@@ -16,9 +16,3 @@ std::optional<double> constant_value(const Expression& expression, Arithmetic ar
                                      std::span<const double> formals = {});
 
 }  // namespace espalier::lsystem
-
-namespace espalier {
-
-using lsystem::constant_value;
-
-}  // namespace espalier

@@ -33,9 +33,3 @@ private:
 };
 
 }  // namespace espalier::lsystem
-
-namespace espalier {
-
-using lsystem::PrintFormat;
-
-}  // namespace espalier

@@ -27,11 +27,3 @@ struct SweptRuns {
 ChartPage sweep_page(const SweptRuns& sweep, const std::vector<std::string>& quantities, bool dark);
 
 }  // namespace espalier::picture
-
-namespace espalier {
-
-using picture::sweep_page;
-using picture::SweptRun;
-using picture::SweptRuns;
-
-}  // namespace espalier

@@ -51,11 +51,3 @@ private:
 void write_png(const std::filesystem::path& path, vtkImageData& image);
 
 }  // namespace espalier::picture
-
-namespace espalier {
-
-using picture::has_display;
-using picture::OffScreenWindow;
-using picture::write_png;
-
-}  // namespace espalier

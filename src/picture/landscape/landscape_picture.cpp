@@ -205,9 +205,9 @@ private:
 };
 
 /// Directions of rays through places of a picture.
-class Camera {
+class LandscapeCamera {
 public:
-    Camera(const LandscapeView& view, const PictureSize& size) : width_(size.width), height_(size.height) {
+    LandscapeCamera(const LandscapeView& view, const PictureSize& size) : width_(size.width), height_(size.height) {
         const glm::dquat turn = towards_eye(view.target, view.eye);
         right_ = turn * glm::dvec3(1, 0, 0);
         up_ = turn * glm::dvec3(0, 1, 0);
@@ -246,7 +246,7 @@ OpacityPicture landscape_picture(const PlantedLandscape& landscape, const std::v
                                     width, height));
     }
     const LandscapeRays rays(landscape, cards, view, look);
-    const Camera camera(view, look.size);
+    const LandscapeCamera camera(view, look.size);
     OpacityPicture picture{static_cast<std::size_t>(look.size.width), static_cast<std::size_t>(look.size.height), {}};
     picture.pixels.resize(picture.width * picture.height);
     const auto see = [&](const glm::dvec2& place) -> std::optional<glm::vec3> {

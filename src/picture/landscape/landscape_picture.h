@@ -42,14 +42,3 @@ OpacityPicture landscape_picture(const PlantedLandscape& landscape, const std::v
                                  const std::function<void(double share)>& progress);
 
 }  // namespace espalier::picture
-
-namespace espalier {
-
-using picture::card_pictures;
-using picture::CardPicture;
-using picture::landscape_picture;
-using picture::LandscapeLook;
-using picture::LandscapeView;
-using picture::RayLight;
-
-}  // namespace espalier

@@ -118,10 +118,3 @@ private:
 };
 
 }  // namespace espalier::picture
-
-namespace espalier {
-
-using picture::Stage;
-using picture::StageSurvey;
-
-}  // namespace espalier

@@ -101,8 +101,8 @@ std::vector<AxisPath> outlines(const FrameGeometry& geometry, const std::optiona
         const std::size_t row = geometry.lines.first + line;
         if (geometry.of_cells.kinds[row] == Kind::axis) continue;
         if (plant && geometry.of_cells.plants[row] != *plant) continue;
-        const auto points = geometry.lines[line];
-        paths.push_back({geometry.of_cells.plants[row], row, {points.begin(), points.end()}});
+        AxisPath& path = paths.emplace_back(AxisPath{geometry.of_cells.plants[row], row, {}});
+        for (const std::int32_t point : geometry.lines[line]) path.points.emplace_back(point);
     }
     return paths;
 }
@@ -156,7 +156,7 @@ std::vector<PlacedTube> placed_tubes(const FrameGeometry& geometry, const StageM
 
 void fill_tube(const PlacedTube& placed, MeshFiller& filler) {
     const Tube tube = placed.patch ? *placed.patch : sweep(placed.axis.line, placed.sides);
-    const auto row = [&](std::uint32_t node) { return static_cast<std::uint32_t>(placed.axis.line.nodes[node].row); };
+    const auto row = [&](std::uint32_t node) { return placed.axis.line.nodes[node].point.row(); };
     std::size_t at = placed.first_point;
     for (const TubeVertex& vertex : tube.vertices) {
         filler.set_point(at++, vertex.position, vertex.normal, vertex.uv, row(vertex.node));

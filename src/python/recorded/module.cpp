@@ -20,10 +20,19 @@ py::ssize_t rows_of(const LoadedFrame& frame) {
     return static_cast<py::ssize_t>(frame.internodes.size());
 }
 
+template <class Of>
+const std::int32_t* number_of(const Index<Of>& index) {
+    return &index.number;
+}
+template <class T>
+const T* number_of(const T& value) {
+    return &value;
+}
+
 template <class T>
 auto numbers(const T FrameInternode::*member) {
     return [member](const SharedFrame& frame) {
-        const T* first = frame->internodes.empty() ? nullptr : &(frame->internodes.data()->*member);
+        const auto* first = frame->internodes.empty() ? nullptr : number_of(frame->internodes.data()->*member);
         return view(frame, first, {rows_of(*frame)}, {sizeof(FrameInternode)});
     };
 }
@@ -53,7 +62,7 @@ py::array_t<double> parameter_in(const LoadedFrame& frame, const std::string& na
     py::array_t<double> values(rows_of(frame));
     double* value = values.mutable_data();
     for (const FrameInternode& one : frame.internodes) {
-        *value++ = found->second[static_cast<std::size_t>(one.tip_point)];
+        *value++ = found->second[one.tip_point.row()];
     }
     return values;
 }
@@ -141,7 +150,7 @@ void bind_frame(py::module_& module) {
         .def_property_readonly("plant", numbers<std::uint32_t>(&FrameInternode::plant))
         .def_property_readonly("order", numbers<std::uint16_t>(&FrameInternode::order))
         .def_property_readonly("birth", numbers<std::int32_t>(&FrameInternode::birth))
-        .def_property_readonly("bearer", numbers<std::int32_t>(&FrameInternode::bearer))
+        .def_property_readonly("bearer", numbers<InternodeIndex>(&FrameInternode::bearer))
         .def_property_readonly("symbols", symbols_in)
         .def_property_readonly("parameter_names", parameter_names)
         .def("parameter", parameter_in, py::arg("name"));

@@ -24,12 +24,3 @@ void check_side_file(const std::filesystem::path& path, Findings& findings);
 void review_view(const View& view, Findings& findings);
 
 }  // namespace espalier::simulation
-
-namespace espalier {
-
-using simulation::check_side_file;
-using simulation::Findings;
-using simulation::is_side_file;
-using simulation::review_view;
-
-}  // namespace espalier

@@ -40,15 +40,3 @@ std::vector<std::string> timeline_differences(const std::filesystem::path& befor
 std::vector<std::string> beside_timeline(const std::filesystem::path& run);
 
 }  // namespace espalier::simulation
-
-namespace espalier {
-
-using simulation::arguments_below;
-using simulation::beside_timeline;
-using simulation::is_unchanged;
-using simulation::lay_out_inputs;
-using simulation::read_command;
-using simulation::RecordedCommand;
-using simulation::timeline_differences;
-
-}  // namespace espalier

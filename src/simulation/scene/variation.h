@@ -30,12 +30,3 @@ struct Variant {
 std::vector<Variant> combine(const std::vector<Variation>& variations);
 
 }  // namespace espalier::simulation
-
-namespace espalier {
-
-using simulation::combine;
-using simulation::parse_variation;
-using simulation::Variant;
-using simulation::Variation;
-
-}  // namespace espalier

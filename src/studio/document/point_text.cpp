@@ -13,8 +13,6 @@ namespace espalier::studio {
 namespace {
 
 namespace fs = std::filesystem;
-using geometry::ControlPoint;
-using geometry::ControlPoints;
 
 constexpr std::size_t most_moved_points = 2000;
 

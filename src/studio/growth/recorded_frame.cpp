@@ -34,17 +34,17 @@ DrawnFrame::DrawnFrame(const RecordedRun& run, const RecordedFrame& frame) : geo
 }
 
 void DrawnFrame::find_modules(const RecordedRun& run, const std::vector<FrameInternode>& internodes) {
-    const auto add = [this](RecordedModule module, std::int32_t point) {
+    const auto add = [this](RecordedModule module, PointIndex point) {
         if (!numbers_.try_emplace(module.organ).second) return;
-        module.point = static_cast<std::size_t>(point);
+        module.point = point.row();
         modules_.push_back(std::move(module));
     };
     for (const FrameInternode& internode : internodes) {
-        add(module_at(geometry_.of_points, static_cast<std::size_t>(internode.tip_point)), internode.tip_point);
+        add(module_at(geometry_.of_points, internode.tip_point.row()), internode.tip_point);
     }
     for (std::size_t i = 0; i < geometry_.polygons.size(); ++i) {
         const auto corners = geometry_.polygons[i];
-        if (!corners.empty()) add(module_at(geometry_.of_cells, geometry_.polygons.first + i), corners[0]);
+        if (!corners.empty()) add(module_at(geometry_.of_cells, geometry_.polygons.first + i), PointIndex(corners[0]));
     }
     std::stable_sort(modules_.begin(), modules_.end(),
                      [](const RecordedModule& a, const RecordedModule& b) { return a.organ.plant < b.organ.plant; });
@@ -65,7 +65,7 @@ void DrawnFrame::add_internodes(const std::vector<FrameInternode>& internodes) {
         parts_.internodes.push_back({parts_.extent.parts(one.base), parts_.extent.parts(one.tip),
                                      parts_.extent.part_of_radius(double(one.base_radius)),
                                      parts_.extent.part_of_radius(double(one.tip_radius)),
-                                     archive::colour_of(geometry_.of_points, static_cast<std::size_t>(one.tip_point)),
+                                     archive::colour_of(geometry_.of_points, one.tip_point.row()),
                                      static_cast<std::uint8_t>(std::min<int>(one.order, 255)),
                                      number_of({one.plant, one.identity})});
     }

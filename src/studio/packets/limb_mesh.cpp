@@ -29,7 +29,7 @@ public:
         const auto origin = static_cast<std::uint32_t>(positions_.size());
         const FrameGeometry& geometry = axes_.geometry;
         for (const TubeVertex& vertex : tube.vertices) {
-            const auto row = static_cast<std::size_t>(axis.line.nodes[vertex.node].row);
+            const std::size_t row = axis.line.nodes[vertex.node].point.row();
             const auto [red, green, blue] = archive::colour_of(geometry.of_points, row);
             positions_.push_back(vertex.position);
             std::array<std::int8_t, 4> normal{};

@@ -3,6 +3,7 @@
 #include "studio/document/document_files.h"
 #include "studio/document/graph_text.h"
 #include "studio/document/point_text.h"
+#include "studio/document/view_text.h"
 
 #include <algorithm>
 #include <cctype>
@@ -121,6 +122,15 @@ std::vector<PointCurve> shown_curves(const DocumentTexts& texts, const DocumentS
         for (PointCurve& curve : read_curves(file, text_of(file, state))) curves.push_back(std::move(curve));
     }
     return curves;
+}
+
+std::vector<ViewEntry> shown_view_entries(const DocumentTexts& texts, const DocumentState& state) {
+    std::vector<ViewEntry> entries;
+    for (const fs::path& file : texts.editable(state)) {
+        if (language_of(file) != "view") continue;
+        for (ViewEntry& entry : read_view_entries(file, text_of(file, state))) entries.push_back(std::move(entry));
+    }
+    return entries;
 }
 
 }  // namespace espalier::studio

@@ -4,6 +4,7 @@
 #include "studio/document/document.h"
 #include "studio/protocol/graph.h"
 #include "studio/protocol/points.h"
+#include "studio/protocol/view_entry.h"
 #include "studio/session/document_texts.h"
 #include "studio/session/message.h"
 
@@ -67,6 +68,7 @@ struct DocumentMessage {
     std::vector<ShownSetting> settings;
     std::vector<ComponentGraph> graphs;
     std::vector<PointCurve> curves;
+    std::vector<ViewEntry> view_entries;
     std::uint64_t seed = 0;
     int steps = 0;
 
@@ -85,6 +87,7 @@ struct DocumentMessage {
         field("settings", self.settings, "numbers and switches that the texts write");
         field("graphs", self.graphs, "texts in `pgraph` that can be read");
         field("curves", self.curves, "control points of side files that can be read, in the order of their texts");
+        field("view_entries", self.view_entries, "what view files say, setting after setting");
         field("seed", self.seed, "that the plants grow with");
         field("steps", self.steps, "to which they grow");
     }
@@ -98,5 +101,6 @@ std::vector<ShownText> shown_texts(const DocumentTexts& texts, const DocumentSta
 std::vector<ShownSetting> shown_settings(const DocumentTexts& texts, const DocumentState& state);
 std::vector<ComponentGraph> shown_graphs(const DocumentTexts& texts, const DocumentState& state);
 std::vector<PointCurve> shown_curves(const DocumentTexts& texts, const DocumentState& state);
+std::vector<ViewEntry> shown_view_entries(const DocumentTexts& texts, const DocumentState& state);
 
 }  // namespace espalier::studio

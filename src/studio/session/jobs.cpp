@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Progress {
+struct JobProgress {
     static constexpr TypeName type{"Progress", "how much of some work is done"};
     std::string what;
     double done = 0;
@@ -47,7 +47,7 @@ struct Exported {
     }
 };
 
-const Message<Progress> progress_message{"progress", "while an export or limbs are made"};
+const Message<JobProgress> progress_message{"progress", "while an export or limbs are made"};
 const Message<Exported> exported_message{"exported", "after `export`; a note says why it failed"};
 
 /// What the status line says while it is made.

@@ -157,6 +157,7 @@ Json OpenDocument::message() const {
         shown.settings = shown_settings(texts_, edited());
         shown.graphs = shown_graphs(texts_, edited());
         shown.curves = shown_curves(texts_, edited());
+        shown.view_entries = shown_view_entries(texts_, edited());
     }
     return document_message(shown);
 }

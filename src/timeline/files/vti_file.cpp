@@ -9,8 +9,6 @@
 
 namespace espalier::timeline {
 
-using geometry::DenseField;
-
 namespace {
 
 std::string numbers(const glm::dvec3& vector) {

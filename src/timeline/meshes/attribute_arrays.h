@@ -19,9 +19,6 @@
 
 namespace espalier::timeline {
 
-using geometry::Owner;
-using geometry::Owners;
-
 /// Arrays with a value for each run of owners, written anew for every frame over those of the frame before.
 class OwnerArrays {
 public:

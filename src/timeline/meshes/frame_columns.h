@@ -20,12 +20,6 @@ namespace espalier::timeline {
 
 class VtkFile;
 
-using geometry::Cells;
-using geometry::MeshSize;
-using geometry::OrganSource;
-using geometry::PlantMesh;
-using geometry::SurfaceSizes;
-
 /// Written anew for every frame, over the frame before.
 class FrameColumns {
 public:

@@ -29,7 +29,7 @@ import type { Changes } from "../changes.js";
 import { menuButton } from "../dialog.js";
 import { h, iconButton, remember, remembered } from "../elements.js";
 import type { CurvePoint, Problem, StudioDocument, TextFile } from "../protocol.js";
-import { sideEditor, type SideEditor } from "../side/side.js";
+import { sideEditor, type SideEditor, type ViewEdit } from "../side/side.js";
 import type { Studio } from "../state.js";
 import { cpfg } from "./cpfg.js";
 import { Disputes } from "./disputes.js";
@@ -175,6 +175,13 @@ export class Editor {
     this.changes.points(`points ${number} of ${path}`, { path, number, points, label }, lasting);
   }
 
+  /** Gives a setting of a view file another value: the text follows. */
+  private setView(path: string, edit: ViewEdit, lasting: boolean): void {
+    this.sendLasting();
+    const key = `${edit.name} ${edit.number} ${edit.letter ?? ""} of ${path}`;
+    this.changes.viewValue(key, { path, ...edit, label: `Edit ${shortName(path)}` }, lasting);
+  }
+
   /** Sends what is typed; done before the document is saved or an undo is asked for. */
   sendLasting(): void {
     clearTimeout(this.soon);
@@ -298,6 +305,8 @@ export class Editor {
       change: (content: string, lasting: boolean) => this.replace(path, content, lasting),
       curves: () => this.studio.document?.curves.filter((curve) => curve.path === path) ?? [],
       move: (number: number, points: CurvePoint[], lasting: boolean) => this.move(path, number, points, lasting),
+      viewEntries: () => this.studio.document?.view_entries.filter((entry) => entry.path === path) ?? [],
+      setView: (edit: ViewEdit, lasting: boolean) => this.setView(path, edit, lasting),
       isAhead: () => this.changes.isBusy,
     };
     this.side = sideEditor(side, () => this.studio.help);

@@ -1,12 +1,15 @@
 /** Editors above the texts of side files: points to drag, colours, forms. */
 import { h } from "../elements.js";
 import { at } from "../lists.js";
-import type { CurvePoint, Help, PointCurve } from "../protocol.js";
+import type { CurvePoint, Help, PointCurve, ViewEntry, ViewRequest } from "../protocol.js";
 import { MapEditor } from "./map.js";
 import { MaterialEditor } from "./materials.js";
 import { PointPlane } from "./plane.js";
 import { SurfaceEditor } from "./surface.js";
 import { ViewForm } from "./view.js";
+
+/** What a setting of a view file becomes. */
+export type ViewEdit = Omit<ViewRequest, "path" | "label" | "transient">;
 
 export interface SideText {
   path: string;
@@ -16,6 +19,10 @@ export interface SideText {
   curves: () => PointCurve[];
   /** Gives the curve of a number other control points: the text follows. */
   move: (number: number, points: CurvePoint[], lasting: boolean) => void;
+  /** The settings that the program has read in the text of a view file. */
+  viewEntries: () => ViewEntry[];
+  /** Gives a setting of a view file another value: the text follows. */
+  setView: (edit: ViewEdit, lasting: boolean) => void;
   /** Whether changes are on their way: what the program has read is older than what shows. */
   isAhead: () => boolean;
 }

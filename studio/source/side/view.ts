@@ -1,11 +1,11 @@
-/** The form of a view file: its settings with what they mean, as the program says it. To change one changes the text. */
+/** The form of a view file: its settings with what they mean, as the program reads and writes them. */
 import { decimalField, fillSlider, h, iconButton, numberIn } from "../elements.js";
-import type { Help, ViewSetting, ViewValue } from "../protocol.js";
+import type { Help, ViewEntry, ViewSetting, ViewValue } from "../protocol.js";
 import { bytesOf, hexOf } from "./colours.js";
 import type { SideEditor, SideText } from "./side.js";
-import { byLetter, without, withValues, writtenSettings, type Written } from "./view-text.js";
 
-type Send = (values: string, lasting: boolean) => void;
+/** Sends other values; null takes the setting out. */
+type Send = (values: string | null, lasting: boolean) => void;
 
 const groups: [ViewSetting["group"], string][] = [
   ["picture", "Light and picture"],
@@ -85,7 +85,7 @@ function wordControl(value: ViewValue, text: string, label: string, send: Send):
 function switchControl(value: ViewValue, text: string, label: string, send: Send): HTMLElement[] {
   const box = h("input", "switch", { type: "checkbox", role: "switch", "aria-label": label });
   box.checked = value.kind === "flag" ? text !== "" : (text || value.standard) === "on";
-  box.addEventListener("change", () => send(value.kind === "flag" ? (box.checked ? " " : "") : box.checked ? "on" : "off", true));
+  box.addEventListener("change", () => send(value.kind === "flag" ? (box.checked ? "" : null) : box.checked ? "on" : "off", true));
   return [box];
 }
 
@@ -129,6 +129,8 @@ export class ViewForm implements SideEditor {
   readonly elements: Node[];
   private readonly place = h("div", "view-form");
   private readonly open = new Set<string>(["picture"]);
+  /** Whether a button has changed which rows there are: they are drawn anew once the program has read the text. */
+  private isOutdated = false;
 
   constructor(
     private readonly text: SideText,
@@ -139,11 +141,13 @@ export class ViewForm implements SideEditor {
   }
 
   /** A control that is in use keeps its place. */
-  refresh(): void {
-    if (!this.place.contains(document.activeElement)) this.draw();
+  reread(): void {
+    if (this.text.isAhead()) return;
+    if (this.isOutdated || !this.place.contains(document.activeElement)) this.draw();
   }
 
   private draw(): void {
+    this.isOutdated = false;
     const settings = this.help()?.view ?? [];
     this.place.replaceChildren(
       ...groups.map(([group, title]) => {
@@ -163,24 +167,34 @@ export class ViewForm implements SideEditor {
     );
   }
 
-  private written(setting: ViewSetting, index: number): Written | null {
-    return writtenSettings(this.text.content(), setting).at(index) ?? null;
+  /** The places of the text that say a setting, in their order. */
+  private entries(setting: ViewSetting): ViewEntry[] {
+    return this.text.viewEntries().filter(({ name }) => name === setting.name);
+  }
+
+  private set(setting: ViewSetting, number: number, values: string | null, lasting: boolean): void {
+    this.text.setView({ name: setting.name, number, values }, lasting);
+  }
+
+  /** Adds a line or takes one out. */
+  private redraw(setting: ViewSetting, number: number, values: string | null): void {
+    this.isOutdated = true;
+    this.set(setting, number, values, true);
   }
 
   private row(setting: ViewSetting): HTMLElement {
     const label = setting.name.replace(/:$/, "");
-    const written = this.written(setting, -1);
+    const written = this.entries(setting).at(-1);
+    const number = Math.max(0, this.entries(setting).length - 1); // the last holds
     const row = h("div", `setting ${layoutOf(setting)}${written ? " changed" : ""}`);
-    const reset = iconButton("reset", `Take "${label}" out of the file: ${setting.standard || "nothing"} holds then`, () => {
-      const now = this.written(setting, -1);
-      if (now) this.text.change(without(this.text.content(), now), true);
-      this.draw();
-    });
+    const reset = iconButton("reset", `Take "${label}" out of the file: ${setting.standard || "nothing"} holds then`, () =>
+      this.redraw(setting, number, null),
+    );
     reset.hidden = !written;
     const send: Send = (values, lasting) => {
       row.classList.add("changed");
       reset.hidden = false;
-      this.text.change(withValues(this.text.content(), setting, this.written(setting, -1), values), lasting);
+      this.set(setting, number, values, lasting);
     };
     const name = h("label", "", { title: setting.values }, capital(label), h("small", "", {}, ` ${setting.help}`));
     row.append(
@@ -193,7 +207,7 @@ export class ViewForm implements SideEditor {
   /** The lines of a setting that consists of letters, and a button for one more. */
   private lines(setting: ViewSetting): HTMLElement[] {
     const label = setting.name.replace(/:$/, "");
-    const count = writtenSettings(this.text.content(), setting).length;
+    const entries = this.entries(setting);
     const first = setting.letters.find(({ kind }) => kind === "vector" || kind === "file");
     const add = h(
       "button",
@@ -203,52 +217,36 @@ export class ViewForm implements SideEditor {
         title: setting.help,
         onclick: () => {
           const start = first ? `${first.letter} ${first.kind === "file" ? "FILE" : "0 1 0"}` : "";
-          this.text.change(withValues(this.text.content(), setting, null, start), true);
-          this.draw();
+          this.redraw(setting, entries.length, start);
         },
       },
       `Add ${label}`,
     );
-    const rows = Array.from({ length: count }, (_, index) => this.line(setting, index, count));
+    const rows = entries.map((entry, index) => this.line(setting, entry, index, entries.length));
     return [...rows, h("div", "plane-tools", {}, add, h("small", "hint", {}, setting.help))];
   }
 
-  private line(setting: ViewSetting, index: number, count: number): HTMLElement {
+  private line(setting: ViewSetting, entry: ViewEntry, index: number, count: number): HTMLElement {
     const label = `${setting.name.replace(/:$/, "")}${count > 1 ? ` ${index + 1}` : ""}`;
-    const values = byLetter(this.written(setting, index)?.values ?? []);
-    const remove = iconButton("close", `Remove ${label}`, () => {
-      const now = this.written(setting, index);
-      if (now) this.text.change(without(this.text.content(), now), true);
-      this.draw();
-    });
+    const remove = iconButton("close", `Remove ${label}`, () => this.redraw(setting, index, null));
     return h(
       "fieldset",
       "letters",
       {},
       h("legend", "", {}, capital(label), remove),
       ...setting.letters.map((letter) => {
-        const send: Send = (text, lasting) => this.setLetter(setting, index, letter, text, lasting);
+        const send: Send = (values, lasting) =>
+          this.text.setView({ name: setting.name, number: index, letter: letter.letter, values }, lasting);
         const name = h("span", "letter-name", { title: `${letter.letter} in the file` }, capital(letter.help));
-        const controls = controlOf(letter, letterValues(letter, values), `${label}: ${letter.help}`, send);
+        const controls = controlOf(letter, letterValues(letter, entry), `${label}: ${letter.help}`, send);
         return h("div", `letter-row ${layoutOf(letter)}`, {}, name, h("div", "control slider", {}, ...controls));
       }),
     );
   }
-
-  private setLetter(setting: ViewSetting, index: number, letter: ViewValue, text: string, lasting: boolean): void {
-    const written = this.written(setting, index);
-    const values = byLetter(written?.values ?? []);
-    if (text === "") values.delete(letter.letter);
-    else values.set(letter.letter, text.trim() === "" ? [] : [text]);
-    // A light stands at a place or comes from a direction.
-    if (setting.name === "light:" && "OV".includes(letter.letter)) values.delete(letter.letter === "O" ? "V" : "O");
-    const line = [...values].map(([name, words]) => [name, ...words].join(" ")).join(" ");
-    this.text.change(withValues(this.text.content(), setting, written, line), lasting);
-  }
 }
 
 /** A flag that stands without values is on. */
-function letterValues(letter: ViewValue, values: Map<string, string[]>): string[] {
-  const own = values.get(letter.letter) ?? [];
-  return letter.kind === "flag" && values.has(letter.letter) ? ["on"] : own;
+function letterValues(letter: ViewValue, { letters }: ViewEntry): string[] {
+  const own = letters[letter.letter];
+  return letter.kind === "flag" && own ? ["on"] : (own ?? []);
 }

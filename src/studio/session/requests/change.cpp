@@ -2,6 +2,7 @@
 #include "studio/document/document_files.h"
 #include "studio/document/graph_text.h"
 #include "studio/document/point_text.h"
+#include "studio/document/view_text.h"
 #include "studio/session/request.h"
 #include "studio/session/session_parts.h"
 
@@ -63,6 +64,21 @@ struct PointsRequest {
     }
 };
 
+struct ViewRequest : ViewEdit {
+    static constexpr TypeName type{"ViewRequest", "another value for a setting of a view file"};
+    std::string path;
+    std::optional<std::string> label;
+    std::optional<bool> transient;
+
+    template <class Self, class Fields>
+    static void declare(Self& self, const Fields& field) {
+        field("path", self.path, "path of its text");
+        ViewEdit::declare(self, field);
+        field("label", self.label, "what undo calls it");
+        field("transient", self.transient, "the next change replaces it");
+    }
+};
+
 NewVersion change(SessionParts& session, Viewer&, const ChangeRequest& request) {
     OpenDocument& document = session.document;
     DocumentState state = document.edited();
@@ -101,6 +117,11 @@ NewVersion points(SessionParts& session, Viewer&, const PointsRequest& request) 
     });
 }
 
+NewVersion view_value(SessionParts& session, Viewer&, const ViewRequest& request) {
+    return edit_text(session.document, request, "view",
+                     [&](const auto&, const std::string& text) { return with_view_edit(text, request); });
+}
+
 NewVersion undo(SessionParts& session, Viewer&, const Nothing&) {
     session.document.undo();
     return {session.document.version()};
@@ -115,6 +136,8 @@ const Registered<RequestType> change_entry{request("change", "changes texts, num
 const Registered<RequestType> graph_entry{request("graph", "edits a graph of components; its text follows", graph)};
 const Registered<RequestType> points_entry{
     request("points", "moves, adds or takes out control points of a side file; its text follows", points)};
+const Registered<RequestType> view_value_entry{
+    request("view-value", "changes a setting of a view file; its text follows", view_value)};
 const Registered<RequestType> undo_entry{request("undo", "takes back one lasting change", undo)};
 const Registered<RequestType> redo_entry{request("redo", "brings back what was taken back", redo)};
 
