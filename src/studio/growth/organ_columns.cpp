@@ -42,8 +42,10 @@ std::string organ_column(const Frame& frame, std::uint32_t growth, const std::st
     std::vector<float> values;
     for (const auto& plant : frame.plants) {
         const auto known = frame.environment->organ_values(name, plant.plant);
-        if (known) values.insert(values.end(), known->begin(), known->end());
-        else values.insert(values.end(), plant.string->size(), std::numeric_limits<float>::quiet_NaN());
+        if (known)
+            values.insert(values.end(), known->begin(), known->end());
+        else
+            values.insert(values.end(), plant.string->size(), std::numeric_limits<float>::quiet_NaN());
     }
     return column_message(growth, 0, name, values);
 }

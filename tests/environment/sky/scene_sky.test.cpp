@@ -25,8 +25,8 @@ SceneSky sky_of(const char* process, double dt = 1, const std::filesystem::path&
 }  // namespace
 
 TEST_CASE("of several given suns the one that brings most light to level ground is shown", "[sky]") {
-    const SceneSky sky = sky_of(
-        R"({"sky": {"par": 1000, "diffuse": 0.25, "suns": [[1, 1, 0], [0, 1, 1]], "sun_shares": [1, 3]}})");
+    const SceneSky sky =
+        sky_of(R"({"sky": {"par": 1000, "diffuse": 0.25, "suns": [[1, 1, 0], [0, 1, 1]], "sun_shares": [1, 3]}})");
     const StepSky step = sky.at_step(3);
     REQUIRE(step.sun);
     CHECK(glm::length(*step.sun - glm::normalize(glm::dvec3(0, 1, 1))) < 1e-12);
