@@ -726,6 +726,28 @@ export interface Progress {
   done: number;
 }
 
+/** the light of a step. */
+export interface SkyOfStep {
+  /** number of the growth. */
+  growth: number;
+  /** that it falls on; at least 0. */
+  step: number;
+  /** of the first process of the scene that has a sky. */
+  sky: Sky;
+}
+
+/** the light of a step, with one sun for all that shine during the step. */
+export interface Sky {
+  /** unit vector to the sun that brings most light to level ground; null if all light comes from the sky. */
+  sun: [number, number, number] | null;
+  /** of the sun behind the air: red, green and blue, linear, the largest 1. */
+  colour: [number, number, number];
+  /** share of the sky in the light on open level ground; 0 to 1. */
+  diffuse: number;
+  /** PAR there while there is light, umol m-2 s-1; 0: it is dark; at least 0. */
+  par: number;
+}
+
 /** rows of a table over time. */
 export interface Statistics {
   /** number of the growth. */
@@ -842,6 +864,7 @@ export type Said =
   | ({ say: "message" } & Note)
   | ({ say: "problems" } & Problems)
   | ({ say: "progress" } & Progress)
+  | ({ say: "sky" } & SkyOfStep)
   | ({ say: "statistics" } & Statistics)
   | ({ say: "textures" } & Textures)
   | ({ say: "told" } & AllTold)

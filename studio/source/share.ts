@@ -4,7 +4,7 @@ import { download, h, whole } from "./elements.js";
 import { compress, toBase64, urlSafe } from "./view/index.js";
 import type { SharedModel } from "./protocol.js";
 import { errorText, type Studio } from "./state.js";
-import type { PlantScene, Recording } from "./view/index.js";
+import type { PlantScene, Recording, SkyLook } from "./view/index.js";
 
 const marker = "/*--- studio ---*/";
 const longestLink = 8000;
@@ -35,9 +35,12 @@ async function recordingOf(
   progress: (part: number) => void,
 ): Promise<Recording> {
   const packets: string[] = [];
+  const skies: SkyLook[] = [];
   for (const [index, step] of steps.entries()) {
     const packet = await studio.frames.fetch(step);
     packets.push(toBase64(await compress(packet.message)));
+    const sky = studio.skyOf(packet);
+    if (sky) skies.push(sky);
     progress((index + 1) / steps.length);
   }
   const shapes = await Promise.all(studio.shapeMessages.map(async (message) => toBase64(await compress(message))));
@@ -56,6 +59,7 @@ async function recordingOf(
     limbs,
     camera: scene.orbit.state,
     light: scene.shownLight,
+    skies: scene.shownSky ? skies : [],
   };
 }
 

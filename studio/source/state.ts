@@ -14,6 +14,8 @@ import type {
   Progress,
   Requests,
   Said,
+  Sky,
+  SkyOfStep,
   Statistics,
   StudioDocument,
 } from "./protocol.js";
@@ -77,6 +79,9 @@ export class Studio {
   pictures: PictureSource[] = [];
   /** The limbs with bark or skin that show; null while none do. */
   limbs: Limbs | null = null;
+  /** Of the steps of one growth that came. */
+  private skies = new Map<number, Sky>();
+  private skiesOf = -1;
   private readonly handed = new Map<number, Promise<Blob>>();
   messages: Message[] = [];
   theme: "light" | "dark";
@@ -178,6 +183,8 @@ export class Studio {
         return this.emit("messages", this.messages);
       case "textures":
         return this.fetchPictures(message.files, message.reliefs);
+      case "sky":
+        return this.hearSky(message);
       case "view":
         return this.emit("view", message.view);
       case "exported":
@@ -208,6 +215,17 @@ export class Studio {
     const rows = same ? withRows(this.statistics.rows, more.rows) : more.rows;
     this.statistics = { ...this.statistics, ...more, rows };
     this.emit("statistics", this.statistics);
+  }
+
+  private hearSky({ growth, step, sky }: SkyOfStep): void {
+    if (growth !== this.skiesOf) this.skies = new Map();
+    this.skiesOf = growth;
+    this.skies.set(step, sky);
+  }
+
+  /** The light that fell on the plants of a packet; null if the scene has no sky. */
+  skyOf({ growth, step }: Packet): Sky | null {
+    return (growth === this.skiesOf && this.skies.get(step)) || null;
   }
 
   private take(message: BinaryMessage): void {

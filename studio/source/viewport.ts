@@ -22,6 +22,7 @@ import { CloudLook } from "./cloud.js";
 import { Film } from "./film.js";
 import { Hints } from "./hints.js";
 import { LimbLook } from "./limbs.js";
+import { SunDial } from "./sun-dial.js";
 
 export class Viewport {
   readonly element: HTMLElement;
@@ -45,6 +46,8 @@ export class Viewport {
   private fieldLook: FieldLook = { mode: "slice", axis: 1, at: 0.5 };
   private askedColumn = "";
   private hasAuthorLight = false;
+  private hasSky = false;
+  private readonly dial = new SunDial();
   private documentPath = "";
 
   constructor(
@@ -73,9 +76,11 @@ export class Viewport {
         this.toolbar(film),
         h("div", "picture-left", {}, this.limbs.element, this.fieldTools, this.legend),
       ),
+      this.dial.element,
       this.scale,
       this.hints.element,
     );
+    this.scene.drawn = () => this.dial.turn(this.scene.orbit.state.azimuth);
     new ResizeObserver(() => this.scene.resize(this.element.clientWidth, this.element.clientHeight)).observe(this.element);
     this.colourSelect.addEventListener("change", () => this.colourBy(this.colourSelect.value));
     this.fieldSelect.addEventListener("change", () => this.chooseField(this.fieldSelect.value));
@@ -113,6 +118,10 @@ export class Viewport {
   }
 
   private show(packet: Packet): void {
+    const sky = this.studio.skyOf(packet);
+    this.hasSky = sky !== null;
+    this.scene.setSky(sky);
+    this.dial.show(this.scene.shownSky);
     this.scene.show(packet);
     this.scale.textContent = `grid ${short(this.scene.gridCell)} m`;
     this.element.dataset.step = String(packet.step);
@@ -183,6 +192,15 @@ export class Viewport {
     { name: "Shadows", key: "shadows", apply: (on) => this.scene.setShadows(on) },
     { name: "Ground", key: "ground", apply: (on) => this.scene.setGround(on) },
     { name: "Labels of the model", key: "labels", apply: (on) => this.scene.setLabels(on) },
+    {
+      name: "Sun and sky of the scene",
+      key: "scene-sky",
+      apply: (on) => {
+        this.scene.setSkyLight(on);
+        this.dial.show(this.scene.shownSky);
+      },
+      offered: () => this.hasSky,
+    },
     {
       name: "Light of the view file",
       key: "author-light",

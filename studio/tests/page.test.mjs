@@ -5,7 +5,7 @@ import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 import { after, before, test } from "node:test";
 import { grown as grownOn, openBrowser, openPage, rests, shot, told } from "./browser.mjs";
-import { startProgram, tree, workFolder } from "./program.mjs";
+import { startProgram, tree, workFolder, writeDay } from "./program.mjs";
 
 const programPath = resolve(process.argv[2] ?? "build/release/espalier");
 const place = workFolder();
@@ -39,6 +39,7 @@ const toolsCutOff = () =>
 const text = () => page.locator(".cm-content").textContent();
 
 before(async () => {
+  writeDay(place.folder);
   program = await startProgram(programPath, place, [join(place.folder, "tree.l")]);
   browser = await openBrowser();
   page = await openPage(browser, program.address);
@@ -259,6 +260,58 @@ test("a scene's own names colour its plants, and sliders move them", async () =>
   await slider.focus();
   await page.keyboard.press("ArrowRight");
   await page.waitForFunction(() => !/position = \[-2, 0, 0\]/.test(document.querySelector(".cm-content").textContent));
+});
+
+test("the sun of a scene goes its way through the steps, lights the plant, and can be switched off", async () => {
+  await openFromGallery("plants/day.toml");
+  await page.waitForFunction(() => document.title.startsWith("day.toml"));
+  await grown();
+  const dial = page.locator(".sun-dial");
+  const look = async (step) => {
+    await page.locator(".scrub").fill(String(step));
+    await shows(step);
+    await rests(page);
+    return dial.getAttribute("aria-label");
+  };
+  const height = (words) => Number(/^The sun stands (\d+)° high: [\d.]+ umol m-2 s-1 of PAR, 20 % of it/.exec(words)[1]);
+  // At 45 degrees, on the longest day, the sun stands 90 - 45 + 23.4 degrees high at noon.
+  const noon = height(await look(12));
+  assert.ok(Math.abs(noon - 68) <= 1, `${noon}`);
+  await shot(page, "sun-noon");
+  assert.match(await look(1), /dark/);
+  const evening = height(await look(17));
+  assert.ok(evening < 35 && evening > 15, `${evening}`);
+  const flip = async () => {
+    await page.getByRole("button", { name: /^What is drawn/ }).click();
+    await page.getByRole("menuitemcheckbox", { name: "Sun and sky of the scene" }).click();
+    await rests(page);
+  };
+  const lit = await page.locator(".viewport canvas").screenshot();
+  await shot(page, "sun-evening");
+  await flip();
+  assert.equal(await dial.isVisible(), false);
+  assert.notDeepEqual(await page.locator(".viewport canvas").screenshot(), lit);
+  await flip();
+  assert.equal(await dial.isVisible(), true);
+  assert.deepEqual(await page.locator(".viewport canvas").screenshot(), lit);
+});
+
+test("plants that grow in light are coloured by what their organs absorb", async () => {
+  await page.getByLabel("Colour by").selectOption("light.absorbed");
+  await page.waitForFunction(() => /light\.absorbed/.test(document.querySelector(".legend").textContent));
+  await rests(page);
+  await shot(page, "absorbed");
+  await page.getByLabel("Colour by").selectOption("");
+});
+
+test("a scene without a light process keeps the usual light", async () => {
+  await openFromGallery("plants/tree.l");
+  await page.waitForFunction(() => document.title.startsWith("tree.l"));
+  await grown();
+  assert.equal(await page.locator(".sun-dial").isVisible(), false);
+  await page.getByRole("button", { name: /^What is drawn/ }).click();
+  assert.equal(await page.getByRole("menuitemcheckbox", { name: "Sun and sky of the scene" }).count(), 0);
+  await page.keyboard.press("Escape");
 });
 
 test("a link says what it needs, and opens in a studio at another port, by paste and from the command line", async () => {

@@ -61,6 +61,12 @@ await save("studio.png");
 await open("lychnis");
 await pick("I(");
 await save("studio-organ.png");
+await open("stand-measured");
+await page.getByRole("tab", { name: "Settings" }).click();
+await page.getByLabel("Colour by").selectOption("light.absorbed");
+await page.waitForFunction(() => /light\.absorbed/.test(document.querySelector(".legend").textContent));
+await save("studio-light.png");
+await page.getByLabel("Colour by").selectOption("");
 await open("wind-pine");
 await page.getByRole("tab", { name: "Graph", exact: true }).click();
 await page

@@ -28,6 +28,23 @@ Internode(age, length) --> !(0.02 * (age + 1)) F(length)
 endlsystem
 `;
 
+/** A herb in the light of a measured day, one step an hour; writes its scene, day.toml. */
+export function writeDay(folder) {
+  const hours = Array.from({ length: 26 }, (_, hour) => [hour, Math.max(0, 800 - 115 * Math.abs(hour - 12))]);
+  const rows = hours.map(([hour, light]) => `${hour},${light},${0.2 * light}\n`);
+  writeFileSync(join(folder, "day.csv"), ["time (h),global (W m-2),diffuse (W m-2)\n", ...rows].join(""));
+  writeFileSync(
+    join(folder, "herb.l"),
+    "lsystem: 1\nderivation length: 20\naxiom: !(0.01) A\nA --> F(0.1) L /(137.5) A\nhomomorphism\n" +
+      "L --> [ &(70) { . f(0.2) . +(90) f(0.1) . +(90) f(0.2) . } ]\nendlsystem\n",
+  );
+  writeFileSync(
+    join(folder, "day.toml"),
+    `[simulation]\nsteps = 20\ndt = ${1 / 24}\n[[plant]]\nmodel = "herb.l"\n[environment.light]\nprocess = "canopy-light"\n` +
+      'voxel = 0.1\nsky = { series = "day.csv", latitude = 45, day = 172 }\n[timeline]\n',
+  );
+}
+
 export function workFolder() {
   const base = mkdtempSync(join(tmpdir(), "espalier-studio-"));
   const folder = join(base, "plants");

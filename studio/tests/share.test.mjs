@@ -5,7 +5,7 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { after, before, test } from "node:test";
 import { openBrowser, openPage, rests, shot } from "./browser.mjs";
-import { workFolder } from "./program.mjs";
+import { workFolder, writeDay } from "./program.mjs";
 
 const program = resolve(process.argv[2] ?? "build/release/espalier");
 const { base, folder } = workFolder();
@@ -83,4 +83,29 @@ test("a page that was shared without organs shows the plant, and clicks find not
   assert.equal(await page.locator(".organ-card").isVisible(), false);
   assert.deepEqual(page.problems, []);
   await page.context().close();
+});
+
+test("a shared page has the sun of its scene in every step", async () => {
+  writeDay(folder);
+  call("run", "day.toml", "--output", "day", "--quiet");
+  call("share", "day", "--output", "day.html");
+  const whole = readFileSync(join(folder, "day.html"), "utf8");
+  const recording = JSON.parse(/id="recording">(.*?)<\/script>/s.exec(whole)[1]);
+  assert.equal(recording.skies.length, recording.steps.length);
+  assert.equal(recording.skies[1].sun, null);
+  assert.ok(recording.skies[12].sun[1] > 0.92);
+  writeFileSync(join(folder, "usual.html"), whole.replace(/"skies":\[.*?\],"camera"/, '"skies":[],"camera"'));
+  const pictureOf = async (name) => {
+    const page = await openPage(browser, `file://${join(folder, name)}`, { offline: true });
+    await page.waitForFunction(() => document.body.dataset.step === "20");
+    await page.locator("input[type=range]").fill("17");
+    await page.waitForFunction(() => document.body.dataset.step === "17");
+    await rests(page);
+    const picture = await page.locator("canvas").screenshot();
+    await shot(page, `shared-${name}`);
+    assert.deepEqual(page.problems, []);
+    await page.context().close();
+    return picture;
+  };
+  assert.notDeepEqual(await pictureOf("day.html"), await pictureOf("usual.html"));
 });

@@ -219,6 +219,11 @@ TEST_CASE("render: the sun of a picture by light stands where that of the scene 
     CHECK((place.bytes("a.png") == place.bytes("b.png")));
     CHECK((place.bytes("a.png") != place.bytes("c.png")));
     CHECK(place.run("render hours.toml --run-output hours --output d.png" + light).code == 0);
+    // Of several suns the one that brings most light.
+    const std::string two = "sky = { par = 1000, diffuse = 0.2, radiance = \"cie-12\", suns = [[0, 1, 1], [1, 1, 0]], ";
+    place.write("suns.toml", head + two + "sun_shares = [1, 3] }\n");
+    REQUIRE(place.run("render suns.toml --run-output suns --output e.png" + light).code == 0);
+    CHECK((place.bytes("e.png") == place.bytes("b.png")));
 }
 
 TEST_CASE("render: wrong words are told with what is meant, exit code 1", "[render]") {

@@ -122,6 +122,26 @@ TEST_CASE("organs of five grown plants absorb what rays against all triangles co
     }
 }
 
+TEST_CASE("in low light ray-light keeps its error on single plants, and canopy-light does not",
+          "[ray-light][canopy-light]") {
+    const glm::dvec3 sun(0.1, 1, -1.5);
+    for (const auto& [file, steps] : {std::pair{"models/herbs/crocus.l", 12}, {"models/leaves/fern.l", 12}}) {
+        LonePlant plant(file);
+        plant.grow(steps);
+        const PlainLight plain(plant.interpretation.geometry, plant.string.size(), glm::normalize(sun));
+        const double all = sum(plain.absorbed());
+        CAPTURE(file);
+        CHECK(sum(absorbed_by("ray-light", "paths = 524288\nground = -10\n", plant, sun)) ==
+              Approx(all).epsilon(0.015));
+        const Box& bounds = plant.interpretation.geometry.bounds;
+        const double voxel = glm::length(bounds.upper - bounds.lower) / 10;
+        const double voxels =
+            sum(absorbed_by("canopy-light", "ground = -10\nvoxel = " + std::to_string(voxel) + "\n", plant, sun));
+        CHECK(voxels == Approx(all).epsilon(0.3));
+        CHECK(std::abs(voxels / all - 1) > 0.1);
+    }
+}
+
 TEST_CASE("turned about the vertical together with the light, and moved, organs absorb the same",
           "[ray-light][canopy-light]") {
     LonePlant plant("models/herbs/lychnis.l");

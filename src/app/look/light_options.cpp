@@ -3,14 +3,43 @@
 #include "espalier/base/error.h"
 
 #include "base/number.h"
-#include "scene_sky.h"
+#include "environment/sky/scene_sky.h"
 
 #include <fmt/format.h>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace espalier::app {
 namespace {
 
 constexpr const char* group = "Light";
+
+std::optional<environment::SceneSky> sky_of_scene(const RenderJob& job) {
+    try {
+        return environment::sky_of_run(job.run.folder());
+    } catch (const UserError& error) {
+        throw UserError(fmt::format("{}; --sky clear takes another one", error.what()));
+    }
+}
+
+PictureSky::Kind drawn_kind(environment::SceneSky::Kind kind) {
+    using Kind = environment::SceneSky::Kind;
+    if (kind == Kind::uniform) return PictureSky::Kind::uniform;
+    return kind == Kind::overcast ? PictureSky::Kind::overcast : PictureSky::Kind::clear;
+}
+
+PictureSky drawn_sky(const environment::SceneSky& scene, const RecordedFrame& frame) {
+    const environment::StepSky step = scene.at_step(frame.step);
+    PictureSky sky;
+    sky.kind = drawn_kind(scene.kind());
+    sky.diffuse = step.diffuse;
+    if (!step.sun) return sky;
+    const glm::dvec3& towards = *step.sun;
+    sky.sun = {glm::degrees(std::atan2(towards.x, towards.z)), glm::degrees(std::asin(std::min(1.0, towards.y)))};
+    return sky;
+}
 
 }  // namespace
 
@@ -79,9 +108,9 @@ void LightOptions::apply(RenderJob& job) const {
     if (sky_ == "uniform") light.sky.kind = PictureSky::Kind::uniform;
     job.style.light = light;
     if (sky_ != "scene") return;
-    if (auto sky = sky_of_scene(job.run.folder())) {
+    if (auto sky = sky_of_scene(job)) {
         job.sky_at = [sky = *sky, given = light.sky](const RecordedFrame& frame) {
-            PictureSky here = sky.at(frame);
+            PictureSky here = drawn_sky(sky, frame);
             if (given.sun) here.sun = given.sun;
             return here;
         };

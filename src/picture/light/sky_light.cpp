@@ -66,8 +66,21 @@ glm::vec3 linear_of_xyy(const glm::dvec3& xyy) {
     return glm::max(glm::vec3(xyz * rows), glm::vec3(0));
 }
 
-/// What a clear air leaves of the sun's light, klx: appendix A.1 at a wavelength for each primary, without ozone, water
-/// vapour and mixed gases.
+glm::vec3 across(const glm::vec3& direction) {
+    const glm::vec3 other = std::abs(direction.y) < 0.9F ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+    return glm::normalize(glm::cross(direction, other));
+}
+
+glm::vec3 lifted(const glm::vec3& towards) {
+    const double elevation = std::asin(std::clamp(static_cast<double>(towards.y), -1.0, 1.0));
+    if (elevation >= least_elevation) return towards;
+    glm::dvec3 level(towards.x, 0, towards.z);
+    level = glm::length(level) > 0 ? glm::normalize(level) : glm::dvec3(0, 0, 1);
+    return glm::vec3(std::cos(least_elevation) * level + glm::dvec3(0, std::sin(least_elevation), 0));
+}
+
+}  // namespace
+
 glm::vec3 sun_through_air(double turbidity, double sun_angle) {
     constexpr std::array micrometres{0.61, 0.55, 0.465};
     constexpr double above_air = 128;                       // klx
@@ -83,21 +96,6 @@ glm::vec3 sun_through_air(double turbidity, double sun_angle) {
     }
     return static_cast<float>(above_air) * colour_above_air * left;
 }
-
-glm::vec3 across(const glm::vec3& direction) {
-    const glm::vec3 other = std::abs(direction.y) < 0.9F ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
-    return glm::normalize(glm::cross(direction, other));
-}
-
-glm::vec3 lifted(const glm::vec3& towards) {
-    const double elevation = std::asin(std::clamp(static_cast<double>(towards.y), -1.0, 1.0));
-    if (elevation >= least_elevation) return towards;
-    glm::dvec3 level(towards.x, 0, towards.z);
-    level = glm::length(level) > 0 ? glm::normalize(level) : glm::dvec3(0, 0, 1);
-    return glm::vec3(std::cos(least_elevation) * level + glm::dvec3(0, std::sin(least_elevation), 0));
-}
-
-}  // namespace
 
 SkyLight::SkyLight(const PictureSky& sky, const glm::vec3& towards_sun)
     : kind_(sky.kind),

@@ -7,6 +7,11 @@
 
 namespace espalier::picture {
 
+/// What a clear air leaves of the light of a sun that stands `sun_angle` radians from the zenith, klx on a plane across
+/// it: Preetham, Shirley & Smits 1999, appendix A.1, at a wavelength for each primary of the screen, without ozone,
+/// water vapour and mixed gases.
+glm::vec3 sun_through_air(double turbidity, double sun_angle);
+
 /// Radiances are kcd/m2 and irradiances klx, each as a linear colour of the screen's primaries.
 class SkyLight {
 public:

@@ -4,9 +4,12 @@
 
 #include "studio/growth/derivation_length.h"
 #include "studio/growth/inquiry.h"
+#include "studio/growth/organ_columns.h"
 #include "studio/growth/reuse_plan.h"
+#include "studio/packets/field_bytes.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <fstream>
 #include <iterator>
@@ -38,6 +41,14 @@ std::string rows_behind(const fs::path& file, std::size_t offset) {
     std::ifstream in(file, std::ios::binary);
     in.seekg(static_cast<std::streamoff>(offset));
     return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::optional<environment::SceneSky> sky_of(const Scene& scene) {
+    auto processes = nlohmann::ordered_json::object();
+    for (const auto& [name, table] : scene.environment.processes) {
+        processes[name] = nlohmann::ordered_json::parse(table.resolved_json());
+    }
+    return environment::sky_of_processes(processes, scene.dt, scene.path.parent_path());
 }
 
 /// Seconds that a growth may go on before it shows a step.
@@ -96,7 +107,8 @@ Growth::Growth(GrowthOrder order, GrowthListener& listener, Workers& workers)
           if (!cancelled_) listener_.printed(number(), std::move(text));
       }),
       steps_(std::make_shared<KeptSteps>(order_.number, order_.scratch / fmt::format("growth-{}", order_.number))),
-      fields_(order_.number, order_.scratch / fmt::format("fields-{}", order_.number)),
+      fields_(order_.scratch / fmt::format("fields-{}", order_.number)),
+      organs_(order_.scratch / fmt::format("organs-{}", order_.number)),
       version_(order_.version),
       wanted_(order_.looked_at),
       ended_(workers.run([this] { live(); })) {}
@@ -141,11 +153,14 @@ void Growth::stop() {
 }
 
 std::vector<std::string> Growth::column_names() const {
-    return studio::column_names(*scene());
+    std::vector<std::string> names = studio::column_names(*scene());
+    const std::lock_guard lock(mutex_);
+    names.insert(names.begin(), organ_columns_.begin(), organ_columns_.end());
+    return names;
 }
 
 std::string Growth::column(int step, const std::string& name) const {
-    return studio::column(*scene(), *steps_, number(), step, name);
+    return organs_.has(name) ? organs_.message(name, step) : studio::column(*scene(), *steps_, number(), step, name);
 }
 
 Picked Growth::module_info(int step, std::uint32_t module) const {
@@ -203,11 +218,13 @@ void Growth::begin(Work& work, GrowthStart start) {
     {
         const std::lock_guard lock(mutex_);
         scene_ = std::make_shared<const Scene>(world.scene());
+        organ_columns_ = organ_columns(world.scene(), world.environment());
     }
     for (const Plant& plant : world.scene().plants) start.plants.push_back(plant.name);
     for (const auto& [name, field] : world.environment().fields().all()) {
         start.fields.push_back({name, field.unit, field.meaning});
     }
+    start.sky = sky_of(world.scene());
     start.last_step = last_step_;
     start.seed = world.scene().seed;
     listener_.started(number(), std::move(start));
@@ -293,7 +310,8 @@ void Growth::step(Work& work) {
     note_derived(work);
     const Frame frame = work.world.frame();
     std::string rows = work.record(frame);
-    fields_.add(work.world.environment().fields(), work.at);
+    for (const auto& [name, field] : frame.fields->all()) fields_.add(name, work.at, field_bytes(field, number(), 0));
+    for (const std::string& name : organ_columns_) organs_.add(name, work.at, organ_column(frame, number(), name));
     note_grown(work, steps_->add(frame), std::move(rows));
 }
 

@@ -6,7 +6,7 @@
 #include "espalier/simulation/world.h"
 #include "espalier/studio/studio.h"
 
-#include "studio/growth/kept_fields.h"
+#include "studio/growth/kept_messages.h"
 #include "studio/growth/kept_steps.h"
 #include "studio/growth/plant_source.h"
 #include "studio/growth/printed_text.h"
@@ -71,7 +71,7 @@ public:
     std::vector<std::string> column_names() const override;
     std::string column(int step, const std::string& name) const override;
     Picked module_info(int step, std::uint32_t module) const override;
-    std::string field(int step, const std::string& name) const override { return fields_.message(step, name); }
+    std::string field(int step, const std::string& name) const override { return fields_.message(name, step); }
 
     void cancel() override;
     bool has_ended() const override { return ended_.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
@@ -107,7 +107,7 @@ private:
     GrowthListener& listener_;
     PrintedText printed_;
     const std::shared_ptr<KeptSteps> steps_;
-    KeptFields fields_;
+    KeptMessages fields_, organs_;
     const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
     std::uint64_t version_ = 0;
     std::atomic<int> last_step_ = -1;
@@ -117,6 +117,7 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::shared_ptr<const Scene> scene_;
+    std::vector<std::string> organ_columns_;
     std::set<int> wanted_;     ///< steps to be drawn before others
     std::future<void> ended_;  ///< the last: its work uses all others
 };

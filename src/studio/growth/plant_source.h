@@ -5,6 +5,7 @@
 #include "espalier/base/read_log.h"
 #include "espalier/studio/studio.h"
 
+#include "environment/sky/scene_sky.h"
 #include "studio/document/document.h"
 #include "studio/packets/limb_axes.h"
 #include "studio/packets/textures.h"
@@ -34,6 +35,7 @@ struct GrowthStart {
     std::vector<FieldDescription> fields;
     int last_step = 0;
     std::uint64_t seed = 0;
+    std::optional<environment::SceneSky> sky;    ///< of its light process, if that has one
     std::optional<DocumentState> recorded_from;  ///< what a recorded run grew from, if it tells
 };
 

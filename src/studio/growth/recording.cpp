@@ -48,15 +48,22 @@ Diagnostic warning(const std::string& message) {
     return diagnostic;
 }
 
-// What the run grew from, as it was then: inputs that have changed become unsaved texts, and if the model itself has
-// gone, all are written below `scratch`.
-void find_source(const fs::path& folder, const fs::path& scratch, GrowthStart& start) {
+/// The model, or a file that it reads and that the run has kept.
+bool has_lost_files(const fs::path& main, const RecordedCommand& command) {
+    return !fs::exists(main) || std::any_of(command.inputs.begin(), command.inputs.end(), [](const auto& input) {
+        return input.second.kept && !fs::exists(input.first);
+    });
+}
+
+// What the run grew from, as it was then: inputs that have changed become unsaved texts, and if one has gone, all are
+// written below `scratch`. Returns the folder below which the inputs lie by their absolute paths; empty: the root.
+fs::path find_source(const fs::path& folder, const fs::path& scratch, GrowthStart& start) {
     const RecordedCommand command = read_command(folder);
     const Json json = Json::parse(read_text(folder / "run.json"));
     std::optional<fs::path> main = main_file(command);
-    if (!main) return;
+    if (!main) return {};
     fs::path root;
-    if (!fs::exists(*main)) {
+    if (has_lost_files(*main, command)) {
         root = scratch;
         lay_out_inputs(command, root);
         main = root / main->relative_path();
@@ -74,6 +81,19 @@ void find_source(const fs::path& folder, const fs::path& scratch, GrowthStart& s
         start.warnings.push_back(
             warning(fmt::format("the run was started with {}, which its texts do not say: grown again it may differ",
                                 fmt::join(options, ", "))));
+    }
+    return root;
+}
+
+/// The light of all steps up to the last, from files as they were; nothing, with a warning, where one is missing.
+void find_sky(const fs::path& folder, const fs::path& root, GrowthStart& start) {
+    const ReadLog reads(0, start.recorded_from ? start.recorded_from->unsaved : UnsavedTexts());
+    try {
+        start.sky = environment::sky_of_run(folder, root);
+        if (start.sky) start.sky->at_step(start.last_step);
+    } catch (const std::exception& error) {
+        start.sky.reset();
+        start.warnings.push_back(warning(fmt::format("the scene's sun does not show: {}", error.what())));
     }
 }
 
@@ -160,7 +180,8 @@ void Recording::begin() {
     for (const RecordedPlant& plant : run_->plants()) start.plants.push_back(plant.name);
     start.last_step = frames.back().step;
     try {
-        find_source(run_->folder(), order_.scratch / fmt::format("run-{}", number()), start);
+        const fs::path scratch = order_.scratch / fmt::format("run-{}", number());
+        find_sky(run_->folder(), find_source(run_->folder(), scratch, start), start);
     } catch (const std::exception& error) {
         start.warnings.push_back(warning(fmt::format("it can be watched, but not edited: {}", error.what())));
     }

@@ -3,9 +3,11 @@
 #include "espalier/base/error.h"
 
 #include "base/base64.h"
+#include "environment/sky/scene_sky.h"
 #include "studio/growth/recorded_frame.h"
 #include "studio/server/page_files.h"
 #include "studio/server/shared_organs.h"
+#include "studio/session/sky_message.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -62,14 +64,27 @@ Json camera_for(const FrameGeometry& geometry) {
             {"elevation", elevation}};
 }
 
+/// Up to a step. Nothing where a measured series has gone since: the page then has its usual light.
+std::optional<environment::SceneSky> sky_of(const RecordedRun& run, int last_step) {
+    try {
+        auto sky = environment::sky_of_run(run.folder());
+        if (sky) sky->at_step(last_step);
+        return sky;
+    } catch (const std::exception&) {
+        return std::nullopt;
+    }
+}
+
 Json recording_of(const RecordedRun& run, const std::vector<const RecordedFrame*>& frames, const SharedPage& page) {
-    Json steps = Json::array(), packets = Json::array(), moments = Json::array();
+    Json steps = Json::array(), packets = Json::array(), moments = Json::array(), skies = Json::array();
+    const std::optional<environment::SceneSky> sky = sky_of(run, frames.back()->step);
     SharedOrgans organs(run);
     for (const RecordedFrame* const frame : frames) {
         const DrawnFrame drawn(run, *frame);
         steps.push_back(frame->step);
         packets.push_back(base64(deflated(drawn.packet(1, frame->step))));
         moments.push_back(packed(organs.add(drawn)));
+        if (sky) skies.push_back(json_of(shown_sky(sky->at_step(frame->step))));
     }
     const Json none = Json::array();
     return {{"title", page.title},
@@ -82,6 +97,7 @@ Json recording_of(const RecordedRun& run, const std::vector<const RecordedFrame*
             {"limbs", none},
             {"organs", packed(organs.table())},
             {"moments", moments},
+            {"skies", skies},
             {"camera", camera_for(run.geometry(*frames.back()))},
             {"light", {{"towardsEye", nullptr}, {"towardsLight", nullptr}, {"background", nullptr}}}};
 }

@@ -3,6 +3,7 @@
 #include "simulation/run/view_record.h"
 #include "studio/session/handed_files.h"
 #include "studio/session/pages.h"
+#include "studio/session/sky_message.h"
 
 #include <utility>
 
@@ -180,6 +181,7 @@ void ShownGrowth::send(Viewer& viewer, int step, HandedFiles& files) const {
     viewer.growth = number();
     const std::size_t textures = source_->textures().size();
     if (std::exchange(viewer.textures, textures) < textures) Pages::send(viewer, textures_message(files));
+    if (start_.sky) Pages::send(viewer, sky_message(number(), step, start_.sky->at_step(step)));
     for (; viewer.shapes < shapes.size(); ++viewer.shapes) viewer.page.send_bytes(shapes[viewer.shapes]);
     viewer.page.send_bytes(source_->packet(step));
 }

@@ -60,7 +60,7 @@ precision highp float;
 uniform sampler2D shade;
 uniform mat4 shadowMatrix;
 uniform vec3 colour, centre;
-uniform float extent, cell, opacity;
+uniform float extent, cell, opacity, groundShade;
 uniform bool shadowed;
 in vec3 place;
 out vec4 result;
@@ -81,7 +81,7 @@ void main() {
   float fade = 1.0 - smoothstep(0.12, 0.5, away);
   vec2 at = (shadowMatrix * vec4(place, 1.0)).xy;
   float dark = shadowed ? texture(shade, at).r : 0.0;
-  result = vec4(colour * (1.0 - 0.42 * dark) * (1.0 - grid()), fade * opacity);
+  result = vec4(colour * (1.0 - groundShade * dark) * (1.0 - grid()), fade * opacity);
 }
 `;
 
@@ -92,11 +92,12 @@ export function niceLength(length: number): number {
   return factor * power;
 }
 
-function uniformsOf({ shadowMap, shadowMatrix, shadowed }: SharedUniforms) {
+function uniformsOf({ shadowMap, shadowMatrix, shadowed, groundShade }: SharedUniforms) {
   return {
     shadowMap,
     shadowMatrix,
     shadowed,
+    groundShade,
     shade: { value: null as Texture | null },
     colour: { value: new Color() },
     centre: { value: new Vector3() },

@@ -5,7 +5,8 @@ import { themes, type Theme } from "./colours.js";
 import { decompress, fromBase64 } from "./compression.js";
 import { readMessage, type Limbs, type Packet } from "./packets.js";
 import { OrganCard, type OrganMoment, type OrganTable } from "./organ-card.js";
-import { PlantScene, type AuthorLook } from "./scene3d.js";
+import type { AuthorLook, SkyLook } from "./light.js";
+import { PlantScene } from "./scene3d.js";
 import { steer } from "./steer.js";
 
 export interface Recording {
@@ -25,6 +26,8 @@ export interface Recording {
   moments?: string[];
   camera: CameraState;
   light: AuthorLook;
+  /** Of each step; empty or missing: the scene has none, or it does not show. */
+  skies?: SkyLook[];
 }
 
 async function unpack(text: string): Promise<ArrayBuffer> {
@@ -119,6 +122,7 @@ class Player {
     this.at = index;
     const packet = await this.packet(index);
     if (this.at !== index) return;
+    this.scene.setSky(this.recording.skies?.[index] ?? null);
     this.scene.show(packet);
     this.scene.setLimbs(this.limbs.get(packet.step) ?? null);
     this.slider.value = String(index);

@@ -16,9 +16,10 @@ import { FieldView, type FieldLook } from "./fields.js";
 import { Ground } from "./ground.js";
 import { Internodes } from "./internodes.js";
 import { Labels } from "./labels.js";
+import { SceneLight, type AuthorLook, type SkyLook } from "./light.js";
 import { boundsOf, type Column, type Field, type Limbs, type Packet, type Shape } from "./packets.js";
 import { Pictures, type PictureSource } from "./pictures.js";
-import { markTable, Pass, shadowDepth, sharedUniforms, useTheme, valueTable } from "./shading.js";
+import { markTable, Pass, shadowDepth, sharedUniforms, valueTable } from "./shading.js";
 import { Shapes } from "./shapes.js";
 import { Triangles } from "./triangles.js";
 import { around, sameBox, sameVector, vectorOf, type Box, type Vector } from "./vectors.js";
@@ -37,17 +38,6 @@ function drawsInSoftware(): boolean {
   return /swiftshader|llvmpipe|software/i.test(name);
 }
 
-/** How the author of a model looked at it, where that is known. */
-export interface AuthorLook {
-  towardsEye: Vector | null;
-  towardsLight: Vector | null;
-  /** Red, green, blue from 0 to 1. */
-  background: Vector | null;
-}
-
-const usualSun = new Vector3(0.45, 0.8, 0.4).normalize();
-const lowestSun = Math.sin((5 * Math.PI) / 180); // shadows of a lower one would be endless
-
 export class PlantScene {
   readonly orbit: OrbitCamera;
   /** Called after a frame was drawn. */
@@ -55,6 +45,7 @@ export class PlantScene {
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly uniforms = sharedUniforms();
+  private readonly light = new SceneLight(this.uniforms);
   private readonly backdrop = new Backdrop();
   private readonly ground: Ground;
   private readonly internodes: Internodes;
@@ -86,8 +77,6 @@ export class PlantScene {
   private shadows = true;
   packet: Packet | null = null;
   private shownTheme: Theme = themes.light;
-  private author: AuthorLook = { towardsEye: null, towardsLight: null, background: null };
-  private authorLight = true;
 
   constructor(readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: !this.software, alpha: false, powerPreference: "high-performance" });
@@ -116,45 +105,54 @@ export class PlantScene {
 
   set theme(theme: Theme) {
     this.shownTheme = theme;
-    useTheme(this.uniforms, theme);
-    this.paintBackdrop();
     this.ground.useTheme(theme);
     this.labels.useTheme(theme);
-    this.request();
+    this.relight();
   }
 
   /** What the view file of the model says. Another place of the eye is taken at once. */
   setAuthor(author: AuthorLook): void {
-    const moved = this.packet !== null && !sameVector(author.towardsEye, this.author.towardsEye);
-    this.author = author;
-    this.setAuthorLight(this.authorLight);
+    const moved = this.packet !== null && !sameVector(author.towardsEye, this.light.author.towardsEye);
+    this.light.author = author;
+    this.relight();
     if (moved && this.frame) this.home();
   }
 
-  /** The light and background that show. */
+  /** The light and background of the view file that show. */
   get shownLight(): AuthorLook {
-    const { author } = this;
-    return this.authorLight ? { ...author, towardsEye: null } : { towardsEye: null, towardsLight: null, background: null };
+    return this.light.shownAuthor;
   }
 
   /** Whether light and background are those of the view file. */
   setAuthorLight(on: boolean): void {
-    this.authorLight = on;
-    const sun = this.uniforms.sun.value;
-    sun.copy(usualSun);
-    if (on && this.author.towardsLight) {
-      sun.set(...this.author.towardsLight).normalize();
-      sun.y = Math.max(sun.y, lowestSun);
-      sun.normalize();
-    }
-    this.shadowStale = true;
-    if (this.bounds) this.placeGround(this.bounds.lower, this.bounds.upper);
-    this.paintBackdrop();
-    this.request();
+    this.light.authorShows = on;
+    this.relight();
   }
 
-  private paintBackdrop(): void {
-    this.backdrop.use(this.shownTheme, this.authorLight ? this.author.background : null);
+  /** Sun and sky of the step, which shine instead of other light; null: the scene has none. */
+  setSky(sky: SkyLook | null): void {
+    if (sky === this.light.sky) return;
+    this.light.sky = sky;
+    this.relight();
+  }
+
+  /** Whether sun and sky of the scene light the plants. */
+  setSkyLight(on: boolean): void {
+    this.light.skyShows = on;
+    this.relight();
+  }
+
+  /** The sun and the sky that light the plants; null: those of the scene do not. */
+  get shownSky(): SkyLook | null {
+    return this.light.shownSky;
+  }
+
+  private relight(): void {
+    this.light.apply(this.shownTheme);
+    this.backdrop.use(this.shownTheme, this.light.shownAuthor.background, this.light.shownSky);
+    this.shadowStale = true;
+    if (this.bounds) this.placeGround(this.bounds.lower, this.bounds.upper);
+    this.request();
   }
 
   get gridCell(): number {
@@ -220,7 +218,7 @@ export class PlantScene {
   }
 
   home(): void {
-    if (this.bounds) this.orbit.home(this.bounds.lower, this.bounds.upper, this.isFlat(), this.author.towardsEye);
+    if (this.bounds) this.orbit.home(this.bounds.lower, this.bounds.upper, this.isFlat(), this.light.author.towardsEye);
   }
 
   /** Colours modules by a column, by the order of branching, or as the model does. */
@@ -389,7 +387,7 @@ export class PlantScene {
     if (this.framedGrowth !== packet.growth) return;
     const before = this.frame;
     this.frame = before ? around(before, this.bounds) : this.bounds;
-    if (!before) this.orbit.home(this.frame.lower, this.frame.upper, this.isFlat(), this.author.towardsEye);
+    if (!before) this.orbit.home(this.frame.lower, this.frame.upper, this.isFlat(), this.light.author.towardsEye);
     else if (!sameBox(this.frame, before)) this.orbit.fit(this.frame.lower, this.frame.upper);
   }
 
@@ -428,7 +426,7 @@ export class PlantScene {
 
   private drawShadow(): void {
     this.shadowStale = false;
-    const shadowed = this.shadows && this.bounds !== null;
+    const shadowed = this.shadows && this.light.castsShadows && this.bounds !== null;
     this.uniforms.shadowed.value = false;
     // What is drawn to must not be read from.
     this.uniforms.shadowMap.value = null;

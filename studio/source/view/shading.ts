@@ -82,6 +82,8 @@ export function sharedUniforms() {
     screenPixel: { value: 0.001 },
     sun: { value: new Vector3(0.45, 0.8, 0.4).normalize() },
     sunColour: { value: new Color() },
+    sunStrength: { value: 1 },
+    groundShade: { value: 0 },
     skyColour: { value: new Color() },
     soilColour: { value: new Color() },
     markColour: { value: new Color() },
@@ -189,6 +191,7 @@ precision highp float;
 precision highp int;
 uniform int pass;
 uniform vec3 sun, sunColour, skyColour, soilColour;
+uniform float sunStrength;
 flat in uint identity;
 out vec4 result;
 
@@ -200,7 +203,7 @@ vec4 shade(vec3 albedo, vec3 normal, float light) {
   float direct = max(dot(normal, sun), 0.0);
   float wrapped = 0.5 + 0.5 * normal.y;
   vec3 ambient = mix(soilColour, skyColour, wrapped);
-  vec3 sum = albedo * (ambient * (0.55 + 0.3 * light) + sunColour * (direct * light * 0.95 + 0.06));
+  vec3 sum = albedo * (ambient * (0.55 + 0.3 * light) + sunColour * sunStrength * (direct * light * 0.95 + 0.06));
   return vec4(sqrt(sum), 1.0);
 }
 
@@ -253,7 +256,7 @@ void main() {
   vec3 normal = normalize(dot(turned, towards) < 0.0 ? -turned : turned);
   normal = ${bend};
   // A thin leaf lets some light through: its shaded side is never quite dark.
-  float through = ${isWood ? "0.0" : "0.35 * max(dot(-normal, sun), 0.0) * light"};
+  float through = ${isWood ? "0.0" : "0.35 * max(dot(-normal, sun), 0.0) * light * sunStrength"};
   result = shade(albedo, normal, light);
   result.rgb = sqrt(result.rgb * result.rgb + albedo * through);
 }

@@ -79,6 +79,24 @@ TEST_CASE("horizontal leaves divide light as the two-stream equations say exactl
     }
 }
 
+TEST_CASE("the error of scattered light falls with the square of the leaf area in a layer of voxels",
+          "[canopy-light]") {
+    for (const auto& [area_index, r, t, s] : {std::array{6.0, 0.6, 0.1, 0.0}, {8.0, 0.4, 0.5, 0.3}}) {
+        const TwoStreams exact(area_index, r, t, s);
+        const auto error = [&, r = r, t = t, s = s, area_index = area_index](const std::string& voxel) {
+            Environment light = light_process(
+                "canopy-light", "voxel = " + voxel + "\nperiodic = true\narea = \"queries\"\n" + band(r, t, s) +
+                                    sun_at(0.7) + "leaf_angles = \"horizontal\"\nscattering.residual = 1e-4\n");
+            even_leaves(area_index).exchange(light);
+            return std::abs(statistic(light, "escaped") - exact.up);
+        };
+        const double coarse = error("0.5"), fine = error("0.25");  // 6 and 12 layers
+        CHECK(coarse < 0.022);
+        CHECK(fine < 0.006);
+        CHECK(coarse > 3.5 * fine);
+    }
+}
+
 TEST_CASE("leaves at random come as near to the two-stream equations, if a voxel holds eight of them",
           "[canopy-light]") {
     constexpr double area_index = 2.9, r = 0.4, t = 0.35, s = 0.1;

@@ -189,3 +189,14 @@ TEST_CASE("bands have photons by their wavelength, and a share of daylight", "[s
     CHECK(light.joules(read_light_band("nir", table(""))) == Approx(0.5 * light.energy));
     CHECK(light.joules(read_light_band("par", table(""))) == Approx(0.5 * light.energy));
 }
+
+TEST_CASE("a step of an hour gets its share of the light of the whole day", "[sky]") {
+    const DaylightSeries series(table("latitude = 50\nday = 100\n"), least_elevation);
+    const Daylight day = series.over(0, 1), hour = series.over(3.0 / 24, 1.0 / 24);
+    CHECK(hour.on_ground == Approx(day.on_ground / 24).epsilon(1e-12));
+    REQUIRE(hour.beams.size() == day.beams.size());
+    for (std::size_t i = 0; i < day.beams.size(); ++i) {
+        CHECK(hour.beams[i].photons == Approx(day.beams[i].photons / 24).epsilon(1e-12));
+        CHECK(glm::length(hour.beams[i].towards - day.beams[i].towards) < 1e-12);
+    }
+}
