@@ -9,12 +9,6 @@ namespace {
 
 using namespace test;
 
-void make_bare_plant(ModelBuilder& model) {
-    model.system().axiom = model.word("X");
-    model.rule("X", "F-[[X]+X]+F[+FX]-X");
-    model.rule("F", "FF");
-}
-
 void bare_plant(benchmark::State& state) {
     ModelBuilder model;
     make_bare_plant(model);

@@ -68,6 +68,12 @@ void copy(benchmark::State& state, ModelBuilder& model, const Growing& growing) 
     state.SetItemsProcessed(modules);
 }
 
+void make_bare_plant(ModelBuilder& model) {
+    model.system().axiom = model.word("X");
+    model.rule("X", "F-[[X]+X]+F[+FX]-X");
+    model.rule("F", "FF");
+}
+
 void make_honda(ModelBuilder& model) {
     constexpr double r1 = 0.9, r2 = 0.6, wr = 0.707;
     model.system().axiom = {model.module("A", {number(1), number(10)})};

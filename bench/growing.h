@@ -26,6 +26,9 @@ void derive(benchmark::State& state, test::ModelBuilder& model, const Growing& g
 /// bytes counted.
 void copy(benchmark::State& state, test::ModelBuilder& model, const Growing& growing);
 
+/// A plant without parameters: 24 modules of 100 draw, 32 are brackets.
+void make_bare_plant(test::ModelBuilder& model);
+
 /// Honda's monopodial tree (ABOP figure 2.6): A(l, w), B(l, w), C(l, w).
 void make_honda(test::ModelBuilder& model);
 

@@ -1,43 +1,28 @@
-// Interpretation of a tree beside a bare scan of its columns, and what questions at every apex add to a step.
+// Interpretation of two plants beside a turtle written for their symbols and beside a bare scan of their columns, and
+// what questions at every apex add to a step.
 #include "espalier/turtle/interpretation.h"
 
 #include "espalier/environment/environment.h"
 
 #include "growing.h"
 
+#include <glm/common.hpp>
+
 namespace espalier::bench {
 namespace {
 
 using namespace test;
 
-constexpr int steps = 16;
+constexpr int steps = 16, bare_steps = 8;
 
-/// The tree of 2^16 apices.
-struct Tree {
-    explicit Tree(bool asks = false) {
-        make_honda(model);
-        if (asks) ask();
+/// A plant after so many steps.
+struct Grown {
+    Grown(void (*make)(ModelBuilder&), int grown_steps) {
+        make(model);
         compiled = model.compiled();
         derivation.emplace(compiled);
-        string = grow(*derivation, steps);
+        string = grow(*derivation, grown_steps);
         symbols = symbol_table(model.model());
-    }
-
-    /// Puts ?P(0, 0, 0) behind every apex, of branches, too.
-    void ask() {
-        for (Production& production : model.system().productions) {
-            std::vector<ModuleTemplate> asking;
-            for (ModuleTemplate& module : production.successor) {
-                const bool apex =
-                    std::string("ABC").find(model.model().alphabet.name(module.letter)) != std::string::npos;
-                asking.push_back(std::move(module));
-                if (!apex) continue;
-                asking.push_back(model.module("?", {}));
-                asking.push_back(model.module("P", {number(0), number(0), number(0)}));
-            }
-            production.successor = std::move(asking);
-        }
-        model.rule(std::vector<Pattern>{{"?", 0}, {"P", 3}}, {});
     }
 
     ModelBuilder model;
@@ -49,16 +34,163 @@ struct Tree {
     Interpretation interpretation;
 };
 
-void interpretation(benchmark::State& state) {
-    const tbb::global_control control = threads(state);
-    Tree tree;
-    for (auto _ : state) {
-        interpret(tree.model.model(), *tree.symbols, tree.string, tree.settings, nullptr, {}, tree.interpretation);
-        benchmark::DoNotOptimize(tree.interpretation.geometry.bounds);
+/// Honda's tree with ?P(0, 0, 0) behind every apex, of branches, too.
+void make_asking_honda(ModelBuilder& model) {
+    make_honda(model);
+    for (Production& production : model.system().productions) {
+        std::vector<ModuleTemplate> asking;
+        for (ModuleTemplate& module : production.successor) {
+            const bool apex = std::string("ABC").find(model.model().alphabet.name(module.letter)) != std::string::npos;
+            asking.push_back(std::move(module));
+            if (!apex) continue;
+            asking.push_back(model.module("?", {}));
+            asking.push_back(model.module("P", {number(0), number(0), number(0)}));
+        }
+        production.successor = std::move(asking);
     }
-    state.SetItemsProcessed(state.iterations() * std::int64_t(tree.string.size()));
+    model.rule(std::vector<Pattern>{{"?", 0}, {"P", 3}}, {});
+}
+
+/// The tree of 2^16 apices.
+struct Tree : Grown {
+    explicit Tree(bool asks = false) : Grown(asks ? make_asking_honda : make_honda, steps) {}
+};
+
+void interpret_again(benchmark::State& state, Grown& grown) {
+    const tbb::global_control control = threads(state);
+    for (auto _ : state) {
+        interpret(grown.model.model(), *grown.symbols, grown.string, grown.settings, nullptr, {}, grown.interpretation);
+        benchmark::DoNotOptimize(grown.interpretation.geometry.bounds);
+    }
+    state.SetItemsProcessed(state.iterations() * std::int64_t(grown.string.size()));
+}
+
+void interpretation(benchmark::State& state) {
+    Tree tree;
+    interpret_again(state, tree);
 }
 BENCHMARK(interpretation)->Arg(1)->Arg(2)->UseRealTime();
+
+void bare_interpretation(benchmark::State& state) {
+    Grown plant(make_bare_plant, bare_steps);
+    interpret_again(state, plant);
+}
+BENCHMARK(bare_interpretation)->Arg(1)->UseRealTime();
+
+/// A turtle that knows F ! + - & / [ ] and nothing else, written by hand into the rows that an interpretation has.
+class PlainTurtle {
+public:
+    explicit PlainTurtle(Grown& grown) : string_(grown.string), geometry_(grown.interpretation.geometry), stack_(256) {
+        const Alphabet& alphabet = grown.model.model().alphabet;
+        arities_.assign(alphabet.arities().begin(), alphabet.arities().end());
+        for (std::size_t letter = 0; letter < arities_.size(); ++letter) {
+            symbols_.push_back(alphabet.name(LetterId(letter))[0]);
+        }
+    }
+
+    void walk() {
+        turtle_ = stack_.data();
+        *turtle_ = {};
+        geometry_.bounds = {};
+        geometry_.axes = 0;
+        geometry_.internodes.resize(geometry_.internodes.capacity());
+        rows_ = 0;
+        const double* values = string_.parameters.data();
+        for (std::size_t i = 0; i < string_.size(); ++i) {
+            const int arity = arities_[string_.letters[i]];
+            act(i, arity, values);
+            values += arity;
+        }
+        geometry_.internodes.resize(rows_);
+    }
+
+private:
+    void act(std::size_t module, int arity, const double* values) {
+        switch (symbols_[string_.letters[module]]) {
+            case 'F':
+                draw(module, arity > 0 ? *values : 1);
+                break;
+            case '!':
+                turtle_->width = *values;
+                break;
+            case '+':
+                turn_left(turtle_->pose, rotation(arity, values));
+                break;
+            case '-':
+                turn_left(turtle_->pose, rotation(arity, values).inverse());
+                break;
+            case '&':
+                pitch_down(turtle_->pose, rotation(arity, values));
+                break;
+            case '/':
+                roll_left(turtle_->pose, rotation(arity, values));
+                break;
+            case '[':
+                turtle_[1] = turtle_[0];
+                ++(++turtle_)->order;
+                turtle_->on_axis = false;
+                break;
+            case ']':
+                --turtle_;
+                break;
+            default:
+                break;
+        }
+    }
+    void draw(std::size_t module, double length) {
+        if (rows_ == geometry_.internodes.size()) geometry_.internodes.resize(2 * rows_ + 16);
+        const double radius = turtle_->width / 2;
+        if (!turtle_->on_axis) {
+            turtle_->axis = geometry_.axes++;
+            turtle_->node_radius = radius;
+            turtle_->on_axis = true;
+        }
+        const glm::dvec3 base = turtle_->pose.position;
+        const glm::dvec3 tip = turtle_->pose.position += turtle_->pose.heading * length;
+        geometry_.internodes[rows_++] = {std::uint32_t(module), turtle_->axis, turtle_->order, 128, 0, base, tip,
+                                         turtle_->node_radius,  radius};
+        turtle_->node_radius = radius;
+        geometry_.bounds.lower = glm::min(geometry_.bounds.lower, tip - radius);
+        geometry_.bounds.upper = glm::max(geometry_.bounds.upper, tip + radius);
+    }
+    Rotation rotation(int arity, const double* values) {
+        if (arity == 0) return default_;
+        if (*values == last_degrees_) return last_;
+        last_degrees_ = *values;
+        return last_ = rotation_of_degrees(*values);
+    }
+
+    const ModuleString& string_;
+    PlantGeometry& geometry_;
+    std::vector<std::uint16_t> arities_;
+    std::vector<char> symbols_;
+    std::vector<TurtleState> stack_;
+    TurtleState* turtle_ = nullptr;
+    std::size_t rows_ = 0;
+    Rotation default_ = rotation_of_degrees(45), last_;
+    double last_degrees_ = 0;
+};
+
+void walk_plainly(benchmark::State& state, Grown& grown) {
+    PlainTurtle turtle(grown);
+    for (auto _ : state) {
+        turtle.walk();
+        benchmark::DoNotOptimize(grown.interpretation.geometry.bounds);
+    }
+    state.SetItemsProcessed(state.iterations() * std::int64_t(grown.string.size()));
+}
+
+void plain_turtle(benchmark::State& state) {
+    Tree tree;
+    walk_plainly(state, tree);
+}
+BENCHMARK(plain_turtle)->UseRealTime();
+
+void bare_plain_turtle(benchmark::State& state) {
+    Grown plant(make_bare_plant, bare_steps);
+    walk_plainly(state, plant);
+}
+BENCHMARK(bare_plain_turtle)->UseRealTime();
 
 void bare_scan(benchmark::State& state) {
     Tree tree;
@@ -111,6 +243,18 @@ const Row walk{"interpretation, against a bare scan of the columns",
                Measure::rate,
                Goal::at_least,
                0.15};
+const Row against_plain{"interpretation, against a turtle written for the tree's symbols",
+                        "interpretation/1/real_time",
+                        "plain_turtle/real_time",
+                        Measure::rate,
+                        Goal::at_least,
+                        0.8};
+const Row bare_against_plain{"interpretation of a bare D0L plant, against a turtle written for its symbols",
+                             "bare_interpretation/1/real_time",
+                             "bare_plain_turtle/real_time",
+                             Measure::rate,
+                             Goal::at_least,
+                             0.8};
 const Row walk_2{"interpretation with 2 threads, against one",
                  "interpretation/2/real_time",
                  "interpretation/1/real_time",

@@ -22,6 +22,22 @@ struct Symbol {
     /// symbol that says less than it does costs time, nothing else.
     enum class Effect : std::uint8_t { other, draws, asks, answers };
 
+    /// What the loop of every walk does itself, with the turtle in registers. `action` does the same.
+    enum class Step : std::uint8_t {
+        by_action,
+        none,
+        draw,
+        left,
+        right,
+        down,
+        up,
+        roll,
+        roll_back,
+        width,
+        open,
+        close
+    };
+
     bool accepts(int arity) const;
 
     std::string name;
@@ -29,6 +45,7 @@ struct Symbol {
     std::string help;
     SymbolAction action;
     Effect effect = Effect::other;
+    Step step = Step::by_action;
 };
 
 /// Symbols that belong together, as the manual tells of them: one group in each file of src/turtle/symbols/.

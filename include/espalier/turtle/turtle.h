@@ -98,8 +98,9 @@ struct Rotation {
 Rotation rotation_of_degrees(double degrees);
 
 /// Turns `first` towards `second`, both unit and perpendicular.
-inline void rotate_pair(glm::dvec3& first, glm::dvec3& second, Rotation by) {
-    const glm::dvec3 turned = first * by.cosine + second * by.sine;
+template <class Vector>
+void rotate_pair(Vector& first, Vector& second, Rotation by) {
+    const Vector turned = first * by.cosine + second * by.sine;
     second = second * by.cosine - first * by.sine;
     first = turned;
 }

@@ -48,8 +48,18 @@ public:
         branch(top_[0], top_[1]);
         ++top_;
     }
+    /// The same for a turtle that walks elsewhere: leaves unwritten where it is, how it stands and how wide it draws.
+    void push_rest() {
+        if (top_ == last_) make_room();
+        copy_rest(top_[0], top_[1]);
+        ++top_;
+    }
     /// Requires an open branch.
     void pop() { --top_; }
+    /// The order of a branch of an axis of this order.
+    static std::uint16_t deeper(std::uint16_t order) {
+        return std::uint16_t(order + (order < std::numeric_limits<std::uint16_t>::max()));
+    }
     /// One turtle as it was made; keeps the memory.
     void clear() {
         stand_at(0);
@@ -58,6 +68,7 @@ public:
 
 private:
     static void branch(const TurtleState& from, TurtleState& to);
+    static void copy_rest(const TurtleState& from, TurtleState& to);
     void make_room();
     void stand_at(std::size_t depth) {
         top_ = states_.data() + depth;
@@ -169,7 +180,7 @@ public:
     void set_heading(glm::dvec3 heading);
     /// In cpfg up follows, where a tropism, @R or @Tp turns the heading, from the frame at the last drawn segment or
     /// @Tf: rolls since then are lost. Such a frame is this one.
-    void keep_frame() { drawn_frame = {turtle().pose.heading, turtle().pose.left}; }
+    void keep_frame() { keep_frame(turtle().pose); }
     /// Loses them, in a model with cpfg's arithmetic.
     void lose_rolls() {
         if (is_as_cpfg_) set_heading(turtle().pose.heading);
@@ -265,20 +276,19 @@ private:
     void add_vertex(bool by_step);
     void push_more();
     void pop_more();
+    void pop_rest();
     static const Rotation& learn(KnownRotation& known, double degrees);
-    /// move() with all that a tropism, an open polygon or cylinder and a texture ask for.
-    void move_and_mark(double distance, bool draws, bool records_vertex);
-    void draw_segment(TurtleState& turtle, const glm::dvec3& base, const glm::dvec3& tip);
+    void draw_segment(TurtleState& turtle, const glm::dvec3& base, const glm::dvec3& tip, Box& bounds);
+    void keep_frame(const Pose& pose) { drawn_frame = {pose.heading, pose.left}; }
     void record_control_point(std::optional<double> strips, bool marked);
     void branch_cylinder();
     void draw_cylinder(std::int32_t number);
     void require_room() const;
-    void require_number(const glm::dvec3& position) const;
     const Contour* contour() const;
     Look look() const;
-    void add_ball(const glm::dvec3& centre, double radius) {
-        geometry_->bounds.lower = glm::min(geometry_->bounds.lower, centre - radius);
-        geometry_->bounds.upper = glm::max(geometry_->bounds.upper, centre + radius);
+    static void add_ball(const glm::dvec3& centre, double radius, Box& bounds) {
+        bounds.lower = glm::min(bounds.lower, centre - radius);
+        bounds.upper = glm::max(bounds.upper, centre + radius);
     }
 
     const Model* model_ = nullptr;
@@ -298,6 +308,7 @@ private:
     LetterId letter_ = no_letter;    // letter of the module that acts: module_'s own, or one of its picture
     bool in_picture_ = false;
 
+    static constexpr double thinnest_line = 1e-7;  // cpfg's
     double radius_of_width_ = 0.5;
     bool is_as_cpfg_ = false;
     bool pushes_more_ = false;  // than turtles
@@ -310,7 +321,8 @@ private:
 
 // --- what the letters of every tree do ------------------------------------------------------------------------------
 
-inline void Walk::draw_segment(TurtleState& turtle, const glm::dvec3& base, const glm::dvec3& tip) {
+[[gnu::always_inline]] inline void Walk::draw_segment(TurtleState& turtle, const glm::dvec3& base,
+                                                      const glm::dvec3& tip, Box& bounds) {
     const bool continues = turtle.on_axis && settings_->tapered_lines;
     const double tip_radius = turtle.has_width ? radius_of_width_ * turtle.width : 0;
     const double base_radius = continues ? turtle.node_radius : tip_radius;
@@ -319,7 +331,7 @@ inline void Walk::draw_segment(TurtleState& turtle, const glm::dvec3& base, cons
         turtle.on_axis = true;
     }
     turtle.node_radius = tip_radius;
-    if (is_as_cpfg_) keep_frame();
+    if (is_as_cpfg_) keep_frame(turtle.pose);
     Internode& row = internodes_.add();  // unwritten: every member is set
     row.module = module_;
     row.axis = turtle.axis;
@@ -330,24 +342,8 @@ inline void Walk::draw_segment(TurtleState& turtle, const glm::dvec3& base, cons
     row.tip = tip;
     row.base_radius = base_radius;
     row.tip_radius = tip_radius;
-    if (!continues) add_ball(base, base_radius);  // else it is the end of the segment before
-    add_ball(tip, tip_radius);
-}
-
-inline void Walk::move(double distance, bool draws, bool records_vertex) {
-    TurtleState& turtle = turtles.top();
-    const bool draws_only = draws && settings_->tropisms.empty() && turtle.elasticity == 0 && open_polygons.empty() &&
-                            turtle.cylinder < 0 && turtle.texture == 0 && !internodes_.full();
-    if (!draws_only) return move_and_mark(distance, draws, records_vertex);
-    const glm::dvec3 base = turtle.pose.position;
-    const glm::dvec3 tip = base + turtle.pose.heading * (distance * turtle.scale);
-    turtle.pose.position = tip;
-    require_number(tip);
-    draw_segment(turtle, base, tip);
-}
-
-inline void Walk::require_number(const glm::dvec3& position) const {
-    if (!std::isfinite(position.x + position.y + position.z)) fail("the turtle's position is not a number any more");
+    if (!continues) add_ball(base, base_radius, bounds);  // else it is the end of the segment before
+    add_ball(tip, tip_radius, bounds);
 }
 
 inline Rotation Walk::rotation(std::span<const double> parameters) {
@@ -375,19 +371,23 @@ inline void TurtleStack::branch(const TurtleState& from, TurtleState& to) {
     copy_vector(from.pose.left, to.pose.left);
     copy_vector(from.pose.up, to.pose.up);
     to.width = from.width;
+    to.axis = from.axis;
+    to.has_width = from.has_width;
+    to.order = deeper(from.order);
+    to.on_axis = false;
+    to.branches_off = true;
+    to.node_radius = 0;
+    copy_rest(from, to);
+}
+
+inline void TurtleStack::copy_rest(const TurtleState& from, TurtleState& to) {
     copy_bits(from.scale, to.scale);
     to.colour = from.colour;
     to.back_colour = from.back_colour;
-    to.axis = from.axis;
-    to.order = std::uint16_t(from.order + (from.order < std::numeric_limits<std::uint16_t>::max()));
-    to.on_axis = false;
-    to.branches_off = true;
     to.texture = from.texture;
     to.brush = from.brush;
     to.systems = from.systems;
     to.cylinder = from.cylinder;
-    to.has_width = from.has_width;
-    to.node_radius = 0;
     copy_bits(from.elasticity, to.elasticity);
 }
 
@@ -400,7 +400,11 @@ inline void Walk::pop() {
     // Strings of old models may end more branches than they began; `check` warns of the productions.
     if (turtles.depth() == 0) return;
     turtles.pop();
-    if (systems.size() > turtle().systems) systems.resize(turtle().systems);
+    pop_rest();
+}
+
+inline void Walk::pop_rest() {
+    if (!systems.empty() && systems.size() > turtle().systems) systems.resize(turtle().systems);
     if (pushes_more_) pop_more();
 }
 
@@ -415,9 +419,8 @@ inline void Walk::answer(std::size_t count) {
 }
 
 inline void Walk::set_width(double width) {
-    constexpr double thinnest = 1e-7;  // cpfg's
     if (!std::isfinite(width)) fail("the line width is not a number");
-    turtle().width = std::max(width, thinnest);
+    turtle().width = std::max(width, thinnest_line);
     turtle().has_width = true;
 }
 

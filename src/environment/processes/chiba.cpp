@@ -16,7 +16,9 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace espalier::environment {
 namespace {
@@ -60,23 +62,23 @@ public:
 
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
         std::vector<std::uint32_t> asking;
-        for (std::uint32_t i = 0; i < queries.size(); ++i) {
-            if (asks(queries[i])) asking.push_back(i);
-        }
-        // Products in an order of their own do not depend on the order of the queries.
-        const auto rank = [&](std::uint32_t i) {
-            const glm::dvec3& place = queries[i].pose.position;
-            return std::tuple(place.x, place.y, place.z, radius_of(queries[i]));
-        };
-        std::sort(asking.begin(), asking.end(), [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
         std::vector<Ball> clusters;
-        for (const std::uint32_t i : asking) clusters.push_back({queries[i].pose.position, radius_of(queries[i])});
-
-        const std::vector<Light> lights = lights_of(clusters);
+        for (std::uint32_t i = 0; i < queries.size(); ++i) {
+            if (!asks(queries[i])) continue;
+            asking.push_back(i);
+            clusters.push_back({queries[i].pose.position, radius_of(queries[i])});
+        }
+        // Many models let signals pass for several steps before the next leaf unfolds.
+        const Optics optics{transmittance_, beam_};
+        if (optics != optics_ || clusters != clusters_) {
+            lights_ = lights_of(clusters);
+            clusters_ = std::move(clusters);
+            optics_ = optics;
+        }
         statistics_.clear();
-        for (std::size_t i = 0; i < asking.size(); ++i) write(lights[i], answers[asking[i]]);
-        for (std::size_t i = 0; i < queries.size(); ++i) {
-            if (asks(queries[i])) statistics_.add(queries[i].plant, answers[i][0]);
+        for (std::size_t i = 0; i < asking.size(); ++i) {
+            write(lights_[i], answers[asking[i]]);
+            statistics_.add(queries[asking[i]].plant, answers[asking[i]][0]);
         }
     }
 
@@ -99,8 +101,25 @@ private:
         double sum = 0;
         glm::dvec3 brightest{0};
     };
+    /// What keyframes may change and balls do not have.
+    struct Optics {
+        double transmittance = 0, beam = 0;
+        bool operator==(const Optics&) const = default;
+    };
 
-    std::vector<Light> lights_of(std::span<const Ball> clusters) const {
+    /// Products in an order of their own do not depend on the order of the queries.
+    std::vector<Light> lights_of(std::span<const Ball> asked) const {
+        std::vector<std::uint32_t> order(asked.size());
+        std::iota(order.begin(), order.end(), 0u);
+        const auto rank = [&](std::uint32_t i) {
+            const glm::dvec3& place = asked[i].centre;
+            return std::tuple(place.x, place.y, place.z, asked[i].radius);
+        };
+        std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
+        std::vector<Ball> clusters;
+        clusters.reserve(asked.size());
+        for (const std::uint32_t i : order) clusters.push_back(asked[i]);
+
         std::vector<Light> lights(clusters.size());
         BallsAlong balls(clusters);
         tbb::enumerable_thread_specific<BallsMet> met_by_thread;
@@ -113,8 +132,8 @@ private:
                     const double margin = (by_area_ ? 1 : beam_) * clusters[i].radius;
                     balls.meet(i, margin, met);
                     const double share = direction.weight * passed(met, clusters[i].radius, margin, powers);
-                    lights[i].sum += share;
-                    lights[i].brightest += share * direction.towards;
+                    lights[order[i]].sum += share;
+                    lights[order[i]].brightest += share * direction.towards;
                 }
             });
         }
@@ -139,6 +158,10 @@ private:
     double transmittance_, radius_, beam_;
     bool by_area_;
     AnswerStatistics statistics_;
+    // Balls that asked last, and their light.
+    std::vector<Ball> clusters_;
+    Optics optics_;
+    std::vector<Light> lights_;
 };
 
 const Registered<ProcessType> entry{

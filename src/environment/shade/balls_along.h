@@ -13,6 +13,8 @@ namespace espalier::environment {
 struct Ball {
     glm::dvec3 centre;
     double radius;
+
+    bool operator==(const Ball&) const = default;
 };
 
 /// The balls that a ray meets, as columns. `ahead` is how far along the ray the centre lies, `aside2` the square of its

@@ -5,12 +5,19 @@
 namespace espalier::turtle {
 namespace {
 
-const Registered<Symbol> open{{"[", {}, "[: begin a branch", [](Walk& walk, std::span<const double>) { walk.push(); }}};
+const Registered<Symbol> open{{"[",
+                               {},
+                               "[: begin a branch",
+                               [](Walk& walk, std::span<const double>) { walk.push(); },
+                               Symbol::Effect::other,
+                               Symbol::Step::open}};
 
-const Registered<Symbol> close{
-    {"]", {}, "]: end a branch and restore the state of the turtle", [](Walk& walk, std::span<const double>) {
-         walk.pop();
-     }}};
+const Registered<Symbol> close{{"]",
+                                {},
+                                "]: end a branch and restore the state of the turtle",
+                                [](Walk& walk, std::span<const double>) { walk.pop(); },
+                                Symbol::Effect::other,
+                                Symbol::Step::close}};
 
 const Registered<Symbol> cut{
     {"%",

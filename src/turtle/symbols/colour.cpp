@@ -9,6 +9,7 @@ namespace {
 constexpr int map_size = 256;
 
 int wrapped(double index) {
+    if (index >= 0 && index < map_size) return int(index);
     return int(std::fmod(std::fmod(index, map_size) + map_size, map_size));
 }
 

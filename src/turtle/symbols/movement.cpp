@@ -13,14 +13,16 @@ const Registered<Symbol> draw{
      {},
      "F(length): move forward and draw an internode; marks a polygon vertex",
      [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), true, true); },
-     Symbol::Effect::draws}};
+     Symbol::Effect::draws,
+     Symbol::Step::draw}};
 
 const Registered<Symbol> draw_unmarked{
     {"G",
      {},
      "G(length): move forward and draw an internode, marking no vertex",
      [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), true, false); },
-     Symbol::Effect::draws}};
+     Symbol::Effect::draws,
+     Symbol::Step::draw}};
 
 const Registered<Symbol> skip{
     {"f",

@@ -26,41 +26,55 @@ void set_heading(Walk& walk, std::span<const double> parameters) {
 }
 
 const Registered<Symbol> left{
-    {"+", {}, "+(angle): turn left, about up. Degrees", [](Walk& walk, std::span<const double> parameters) {
-         turn_left(walk.turtle().pose, walk.rotation(parameters));
-     }}};
+    {"+",
+     {},
+     "+(angle): turn left, about up. Degrees",
+     [](Walk& walk, std::span<const double> parameters) { turn_left(walk.turtle().pose, walk.rotation(parameters)); },
+     Symbol::Effect::other,
+     Symbol::Step::left}};
 
-const Registered<Symbol> right{
-    {"-", {}, "-(angle): turn right, about up. Degrees", [](Walk& walk, std::span<const double> parameters) {
-         turn_left(walk.turtle().pose, walk.rotation(parameters).inverse());
-     }}};
+const Registered<Symbol> right{{"-",
+                                {},
+                                "-(angle): turn right, about up. Degrees",
+                                [](Walk& walk, std::span<const double> parameters) {
+                                    turn_left(walk.turtle().pose, walk.rotation(parameters).inverse());
+                                },
+                                Symbol::Effect::other,
+                                Symbol::Step::right}};
 
-const Registered<Symbol> down{{"&",
-                               {},
-                               "&(angle): pitch the heading towards up, about left. Degrees",
-                               [](Walk& walk, std::span<const double> parameters) {
-                                   pitch_down(walk.turtle().pose, walk.rotation(parameters));
-                               }}};
+const Registered<Symbol> down{
+    {"&",
+     {},
+     "&(angle): pitch the heading towards up, about left. Degrees",
+     [](Walk& walk, std::span<const double> parameters) { pitch_down(walk.turtle().pose, walk.rotation(parameters)); },
+     Symbol::Effect::other,
+     Symbol::Step::down}};
 
 const Registered<Symbol> up{{"^",
                              {},
                              "^(angle): pitch the heading away from up, about left. Degrees",
                              [](Walk& walk, std::span<const double> parameters) {
                                  pitch_down(walk.turtle().pose, walk.rotation(parameters).inverse());
-                             }}};
+                             },
+                             Symbol::Effect::other,
+                             Symbol::Step::up}};
 
 const Registered<Symbol> roll{
     {"/",
      {},
      "/(angle): roll left towards up, about the heading. Degrees",
-     [](Walk& walk, std::span<const double> parameters) { roll_left(walk.turtle().pose, walk.rotation(parameters)); }}};
+     [](Walk& walk, std::span<const double> parameters) { roll_left(walk.turtle().pose, walk.rotation(parameters)); },
+     Symbol::Effect::other,
+     Symbol::Step::roll}};
 
 const Registered<Symbol> roll_back{{"\\",
                                     {},
                                     "\\(angle): roll left away from up, about the heading. Degrees",
                                     [](Walk& walk, std::span<const double> parameters) {
                                         roll_left(walk.turtle().pose, walk.rotation(parameters).inverse());
-                                    }}};
+                                    },
+                                    Symbol::Effect::other,
+                                    Symbol::Step::roll_back}};
 
 const Registered<Symbol> turn_around{{"|", {0}, "|: turn around, about up", [](Walk& walk, std::span<const double>) {
                                           turn_left(walk.turtle().pose, Rotation(std::numbers::pi));

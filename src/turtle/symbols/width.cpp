@@ -15,7 +15,9 @@ const Registered<Symbol> wider{
      "#(width): set the line width, times the scale; without parameter, widen by the increment",
      [](Walk& walk, std::span<const double> parameters) {
          change_width(walk, parameters, walk.settings().line_width_increment);
-     }}};
+     },
+     Symbol::Effect::other,
+     Symbol::Step::width}};
 
 const Registered<Symbol> narrower{
     {"!",
@@ -23,7 +25,9 @@ const Registered<Symbol> narrower{
      "!(width): set the line width, times the scale; without parameter, narrow by the increment",
      [](Walk& walk, std::span<const double> parameters) {
          change_width(walk, parameters, -walk.settings().line_width_increment);
-     }}};
+     },
+     Symbol::Effect::other,
+     Symbol::Step::width}};
 
 const Registered<SymbolGroup> width_group{
     {"width",

@@ -18,7 +18,6 @@ struct WalkInput {
     const FieldValues* fields;  ///< null: vector fields read none
 };
 
-/// Modules that neither act nor have a picture cost one look-up.
 class StringWalk {
 public:
     /// Stands at the beginning of a string. With `room`, rows that were counted go there.
@@ -36,9 +35,15 @@ public:
     bool filled_room() const { return walk_.internodes_.full() && walk_.queries_.full() && walk_.answers_.full(); }
 
 private:
+    class Ahead;
     /// Returns where it stands, at or behind `end`: letters that form one symbol are not parted.
     template <bool with_pictures>
     std::size_t run_along(std::size_t begin, std::size_t end, std::size_t& at);
+    std::size_t next_action(std::size_t begin, std::size_t end) const;
+    /// False if tropisms bend what is drawn, or a polygon takes its vertices.
+    bool draws_plainly() const { return walk_.settings_->tropisms.empty() && walk_.open_polygons.empty(); }
+    /// Walks along letters that need no action; returns where one does.
+    std::size_t go_ahead(std::size_t begin, std::size_t end, std::size_t& at);
     void act(std::size_t module, LetterId letter, const LetterMeaning& meaning, std::size_t at) {
         walk_.module_ = std::uint32_t(module);
         walk_.parameters_at_ = at;

@@ -24,6 +24,14 @@ Symbol::Effect effect_of(const Symbol& symbol, int arity) {
     return symbol.effect == Symbol::Effect::asks && arity == 0 ? Symbol::Effect::other : symbol.effect;
 }
 
+/// A width without parameter changes by the increment.
+Symbol::Step step_of(const Symbol* symbol, const LetterMeaning& meaning) {
+    using enum Symbol::Step;
+    if (meaning.level) return by_action;
+    if (!meaning.action) return none;
+    return symbol->step == width && meaning.arity == 0 ? by_action : symbol->step;
+}
+
 }  // namespace
 
 bool Symbol::accepts(int arity) const {
@@ -49,6 +57,7 @@ SymbolTable::SymbolTable(const Model& model) : processes(model.alphabet.size(), 
         if (process == model.processes.end()) continue;
         processes[letter] = std::int16_t(process - model.processes.begin());
         levels[0][letter].action = communication->action;
+        levels[0][letter].step = Symbol::Step::by_action;
         levels[0][letter].effect = effect_of(*communication, levels[0][letter].arity);
     }
 }
@@ -72,6 +81,7 @@ std::uint16_t SymbolTable::add_level(const Alphabet& alphabet, const std::string
             meaning.effect = effect_of(*symbol, arity);
         }
         if (arity == 0 && begins_symbol(name)) meaning.level = add_level(alphabet, name);
+        meaning.step = step_of(symbol, meaning);
         meaning.belongs = symbol || meaning.level;
         levels[index][letter] = meaning;
     }

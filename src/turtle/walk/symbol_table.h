@@ -15,6 +15,7 @@ struct LetterMeaning {
     std::uint16_t level = 0;
     bool belongs = false;  ///< in a level beyond the first: part of the symbol that began before
     Symbol::Effect effect = Symbol::Effect::other;
+    Symbol::Step step = Symbol::Step::by_action;
 };
 
 /// A symbol found in a string: its last module, and what it does.

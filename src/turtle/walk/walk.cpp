@@ -142,7 +142,7 @@ void Walk::end() {
     if (is_deformed) geometry_->bounds = drawn_bounds(*geometry_);
 }
 
-void Walk::move_and_mark(double distance, bool draws, bool records_vertex) {
+void Walk::move(double distance, bool draws, bool records_vertex) {
     TurtleState& turtle = turtles.top();
     if (!elasticities.empty()) {
         const bool bent = bend_by_tropisms(turtle.pose, settings_->tropisms, elasticities);
@@ -154,14 +154,14 @@ void Walk::move_and_mark(double distance, bool draws, bool records_vertex) {
     if (turtle.elasticity != 0) {
         apply_older_tropism(turtle.pose, glm::normalize(settings_->tropism_direction), turtle.elasticity);
     }
-    require_number(turtle.pose.position);
+    if (!finite(turtle.pose.position)) fail("the turtle's position is not a number any more");
     if (records_vertex && !open_polygons.empty()) add_vertex(true);
     if (turtle.cylinder >= 0 && draws && records_vertex) record_control_point({}, false);
     if (!draws) {
         turtle.on_axis = false;
         return;
     }
-    draw_segment(turtle, base, turtle.pose.position);
+    draw_segment(turtle, base, turtle.pose.position, geometry_->bounds);
     if (turtle.texture != 0) {
         geometry_->textures.resize(internodes_.size());
         geometry_->textures.back() = turtle.texture;
@@ -244,10 +244,14 @@ void Walk::close_polygon() {
     if (polygon.filled && count >= 3) {
         geometry_->polygons.push_back({polygon.module, std::uint32_t(geometry_->vertices.size()), std::uint32_t(count),
                                        turtle().order, polygon.colour, polygon.look});
-        for (std::size_t i = polygon.first; i < polygon.first + count; ++i) {
-            geometry_->vertices.push_back(open_vertices[i]);
-            geometry_->bounds.add(open_vertices[i]);
-        }
+        const auto first = open_vertices.begin() + std::ptrdiff_t(polygon.first);
+        const auto last = first + std::ptrdiff_t(count);
+        geometry_->vertices.insert(geometry_->vertices.end(), first, last);
+        Box& bounds = geometry_->bounds;
+        std::for_each(first, last, [&](const glm::dvec3& vertex) {
+            bounds.lower = glm::min(bounds.lower, vertex);
+            bounds.upper = glm::max(bounds.upper, vertex);
+        });
     }
     open_vertices.resize(polygon.first);
 }
@@ -256,7 +260,7 @@ void Walk::place(Organ::Shape shape, const Pose& pose, double diameter) {
     if (!std::isfinite(diameter)) fail("the size of an organ is not a number");
     geometry_->organs.push_back({module_, shape, turtle().order, std::uint16_t(turtle().colour), 0, pose,
                                  glm::dvec3(diameter), look(), std::uint16_t(brush().sides)});
-    add_ball(pose.position, std::abs(diameter) / 2);
+    add_ball(pose.position, std::abs(diameter) / 2, geometry_->bounds);
 }
 
 Look Walk::look() const {

@@ -189,6 +189,32 @@ TEST_CASE("light among clusters is the same bytes in any order of queries and on
     CHECK(answers("", questions) == light);
 }
 
+TEST_CASE("a process that was asked before answers as a new one, whether clusters, transmittance or nothing changed",
+          "[chiba]") {
+    const auto asked_of = [](Environment& environment, const std::vector<Asked>& questions) {
+        AskingPlants plants;
+        plants.add(questions).exchange(environment);
+        return plants.parameters();
+    };
+    Environment environment = environment_of("[light]\nprocess = \"chiba\"\n");
+    std::vector<Asked> questions = crown(100, -5);
+    const std::vector<double> before = asked_of(environment, questions);
+    CHECK(asked_of(environment, questions) == before);
+    std::reverse(questions.begin(), questions.end());
+    CHECK(asked_of(environment, questions) == answers("", questions));
+    questions[7].position.y += 0.1;
+    CHECK(asked_of(environment, questions) == answers("", questions));
+    questions[8].parameters[0] = 0.7;
+    const std::vector<double> opaque = asked_of(environment, questions);
+    CHECK(opaque == answers("", questions));
+    for (const ChangingSetting& setting : environment.changing_settings(0)) {
+        if (setting.key == "transmittance") setting.set(0.9);
+    }
+    const std::vector<double> thin = asked_of(environment, questions);
+    CHECK(thin == answers("transmittance = 0.9\n", questions));
+    CHECK(thin != opaque);
+}
+
 TEST_CASE("samples are the next 8 * 4^k; above and below share the light by their ratio", "[chiba]") {
     CHECK(uniform_sky(1, 0.7).size() == 8);
     CHECK(uniform_sky(9, 0.7).size() == 32);
