@@ -42,6 +42,7 @@ std::vector<Json> requests(const OpenStudio& studio, std::uint32_t growth) {
         {{"do", "graph"}, {"path", file}, {"edit", "link"}, {"from", "stem"}, {"to", "petal"}, {"kind", "child"}},
         {{"do", "graph"}, {"path", file}, {"edit", "remove"}, {"component", "petal"}},
         {{"do", "points"}, {"path", file}, {"number", 0}, {"points", {{{"x", 0}, {"y", 0}, {"z", 0}, {"times", 1}}}}},
+        {{"do", "view-value"}, {"path", file}, {"name", "light:"}, {"number", 0}, {"letter", "A"}, {"values", "1"}},
         {{"do", "change"}, {"texts", {{file, stem}}}, {"label", "text"}, {"transient", true}},
         {{"do", "undo"}},
         {{"do", "redo"}},

@@ -118,8 +118,10 @@ NewVersion points(SessionParts& session, Viewer&, const PointsRequest& request) 
 }
 
 NewVersion view_value(SessionParts& session, Viewer&, const ViewRequest& request) {
-    return edit_text(session.document, request, "view",
-                     [&](const auto&, const std::string& text) { return with_view_edit(text, request); });
+    return edit_text(session.document, request, "view", [&](const auto& file, const std::string& text) {
+        if (language_of(file) != "view") throw UserError(file.filename().string() + " is no view file");
+        return with_view_edit(text, request);
+    });
 }
 
 NewVersion undo(SessionParts& session, Viewer&, const Nothing&) {
