@@ -262,6 +262,31 @@ TEST_CASE("one thread and two write the same string", "[lsystem]") {
     CHECK(same(grown(2, true, false), grown(1, true, true)));
 }
 
+TEST_CASE("long runs of modules that live on are joined as they were between modules that decompose", "[lsystem]") {
+    const auto grown = [](std::size_t threads, bool ordered, int steps) {
+        ModelBuilder model;
+        model.system().axiom = model.word("A");
+        std::vector<ModuleTemplate> successor(20, model.module("b", {number(7), number(9)}));
+        for (const char* apex : {"A", "c", "A"}) successor.push_back(model.module(apex, {}));
+        model.rule({{"A", 0}}, successor);
+        if (ordered) {
+            const std::uint32_t n = model.add_global("n");
+            model.system().productions.back().before = {assign(global(n), global(n) + number(1))};
+        }
+        model.system().decomposition.productions.push_back(
+            model.make({}, {{"c", 0}}, {}, {model.module("d", {number(3)}), model.module("e", {})}));
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+        Derivation derivation(model.compiled(), with_lineage(11, 4));
+        return grow(derivation, steps);
+    };
+    const ModuleString joined = grown(2, false, 12);
+    CHECK(joined.size() == 4095 * 22 + 4096);
+    CHECK(joined.parameters[joined.parameters.size() - 1] == 3);
+    CHECK(same(joined, grown(1, false, 12)));
+    CHECK(same(joined, grown(1, true, 12)));  // written in one piece
+    CHECK(same(grown(1, false, 6), grown(1, true, 6)));
+}
+
 TEST_CASE("a derivation restored from a checkpoint goes on as if nothing had happened", "[lsystem]") {
     ModelBuilder model;
     add_busy_tree(model);

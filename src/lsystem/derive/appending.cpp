@@ -8,8 +8,12 @@
 namespace espalier::lsystem {
 
 // Only the used memory of the string counts: how much there is depends on who had it before.
-GrowingPart::GrowingPart(ModuleString& string, const StepInput& input, std::atomic<std::size_t>& bytes)
-    : siblings(input.from.siblings.size()), string_(string), input_(input), bytes_(bytes) {
+GrowingPart::GrowingPart(ModuleString& string, const StepInput& input, std::atomic<std::size_t>& bytes, Runs runs)
+    : siblings(input.from.siblings.size()),
+      string_(string),
+      input_(input),
+      bytes_(bytes),
+      joins_runs_(runs == Runs::joined) {
     string_.clear();
 }
 
@@ -28,6 +32,11 @@ void GrowingPart::grow(std::size_t more_modules, std::size_t more_parameters) {
 }
 
 void GrowingPart::append_run(std::size_t begin, std::size_t end, const double* values, std::size_t parameters) {
+    constexpr std::size_t few = 8;  // not worth a note
+    if (joins_runs_ && end - begin > few) {
+        runs_.push_back({begin, end, values, parameters, string_.letters.size(), string_.parameters.size()});
+        return;
+    }
     const bool has_room =
         end - begin <= modules_ - string_.letters.size() && parameters <= parameters_ - string_.parameters.size();
     if (!has_room) grow(end - begin, parameters);
@@ -37,6 +46,12 @@ void GrowingPart::append_run(std::size_t begin, std::size_t end, const double* v
     append(string_.letters, input_.from.letters);
     string_.parameters.insert(string_.parameters.end(), values, values + parameters);
     if (input_.lineage) append(string_.births, input_.from.births);
+}
+
+Extent GrowingPart::extent() const {
+    Extent all{string_.letters.size(), string_.parameters.size(), siblings.rows().size()};
+    for (const Run& run : runs_) all += {run.end - run.begin, run.parameters, 0};
+    return all;
 }
 
 Appending::Appending(const StepInput& input, Machine& machine, Services& services, GrowingPart& out)
@@ -194,8 +209,8 @@ void Appending::follow_seed() {
 namespace {
 
 template <class T>
-void copy_column(const Column<T>& from, Column<T>& to, std::size_t at) {
-    if (!from.empty()) std::memcpy(to.data() + at, from.data(), from.size() * sizeof(T));
+void copy(const T* from, std::size_t count, T* to) {
+    if (count > 0) std::memcpy(to, from, count * sizeof(T));
 }
 
 void copy_rows(const StepInput& input, const GrowingPart& part, std::size_t at, ModuleString& to) {
@@ -203,18 +218,50 @@ void copy_rows(const StepInput& input, const GrowingPart& part, std::size_t at, 
     for (std::size_t k = 0; k < rows.size(); ++k) to.siblings.added(input.from.siblings.size() + at + k) = rows[k];
 }
 
-/// `at`: where the part begins in the new string.
-void copy_part(const StepInput& input, const ModuleString& piece, const GrowingPart& part, const Extent& at,
-               ModuleString& to) {
-    copy_column(piece.letters, to.letters, at.modules);
-    copy_column(piece.parameters, to.parameters, at.parameters);
-    const std::size_t rows_before = input.from.siblings.size();
-    for (std::size_t k = 0; k < piece.births.size(); ++k) {
-        Birth& birth = to.births[at.modules + k] = piece.births[k];
-        if (birth.siblings >= rows_before) birth.siblings += static_cast<std::uint32_t>(at.siblings);
+/// Copies what a part wrote, and the runs of the old string between, from where the part begins in the new string.
+class PartCopy {
+public:
+    PartCopy(const StepInput& input, const ModuleString& piece, const Extent& at, ModuleString& to)
+        : from_(input.from), lineage_(input.lineage), piece_(piece), at_(at), siblings_before_(at.siblings), to_(to) {}
+
+    void copy_all(const std::vector<GrowingPart::Run>& runs) {
+        for (const GrowingPart::Run& run : runs) {
+            copy_own(run.modules_before, run.parameters_before);
+            copy_run(run);
+        }
+        copy_own(piece_.letters.size(), piece_.parameters.size());
     }
-    if (input.lineage) copy_rows(input, part, at.siblings, to);
-}
+
+private:
+    void copy_own(std::size_t modules_end, std::size_t parameters_end) {
+        const std::size_t modules = modules_end - modules_, parameters = parameters_end - parameters_;
+        copy(piece_.letters.data() + modules_, modules, to_.letters.data() + at_.modules);
+        copy(piece_.parameters.data() + parameters_, parameters, to_.parameters.data() + at_.parameters);
+        const std::size_t rows_before = from_.siblings.size();
+        for (std::size_t k = 0; lineage_ && k < modules; ++k) {
+            Birth& birth = to_.births[at_.modules + k] = piece_.births[modules_ + k];
+            if (birth.siblings >= rows_before) birth.siblings += static_cast<std::uint32_t>(siblings_before_);
+        }
+        at_ += {modules, parameters, 0};
+        modules_ = modules_end;
+        parameters_ = parameters_end;
+    }
+    void copy_run(const GrowingPart::Run& run) {
+        const std::size_t modules = run.end - run.begin;
+        copy(from_.letters.data() + run.begin, modules, to_.letters.data() + at_.modules);
+        copy(run.values, run.parameters, to_.parameters.data() + at_.parameters);
+        if (lineage_) copy(from_.births.data() + run.begin, modules, to_.births.data() + at_.modules);
+        at_ += {modules, run.parameters, 0};
+    }
+
+    const ModuleString& from_;
+    const bool lineage_;
+    const ModuleString& piece_;
+    std::size_t modules_ = 0, parameters_ = 0;  ///< of the piece that are copied
+    Extent at_;
+    const std::size_t siblings_before_;
+    ModuleString& to_;
+};
 
 }  // namespace
 
@@ -224,11 +271,13 @@ void join(const StepInput& input, const std::vector<ModuleString>& pieces, const
     Extent all;
     for (std::size_t k = 0; k < parts.size(); ++k) {
         at.push_back(all);
-        all += {pieces[k].size(), pieces[k].parameters.size(), parts[k].siblings.rows().size()};
+        all += parts[k].extent();
     }
     make_room(input, all, held, to, [] { return std::vector<std::uint64_t>(); });
-    for_in_parallel(std::size_t{0}, parts.size(),
-                    [&](std::size_t k) { copy_part(input, pieces[k], parts[k], at[k], to); });
+    for_in_parallel(std::size_t{0}, parts.size(), [&](std::size_t k) {
+        PartCopy(input, pieces[k], at[k], to).copy_all(parts[k].runs());
+        if (input.lineage) copy_rows(input, parts[k], at[k].siblings, to);
+    });
     if (input.lineage) drop_unused_siblings(to);
 }
 
@@ -245,7 +294,9 @@ void rewrite_and_decompose(const StepInput& input, Scratch& scratch, Machines& m
     std::atomic<std::size_t> bytes = bytes_before(input);
     if (scratch.pieces.size() < scratch.chunks.size()) scratch.pieces.resize(scratch.chunks.size());
     std::deque<GrowingPart> parts;
-    for (std::size_t k = 0; k < scratch.chunks.size(); ++k) parts.emplace_back(scratch.pieces[k], input, bytes);
+    for (std::size_t k = 0; k < scratch.chunks.size(); ++k) {
+        parts.emplace_back(scratch.pieces[k], input, bytes, GrowingPart::Runs::joined);
+    }
     for_each_chunk(scratch.chunks, machines, [&](Chunk& chunk, Machine& machine) {
         Appending appending(input, machine, services, parts[static_cast<std::size_t>(&chunk - scratch.chunks.data())]);
         appending.run(chunk.begin, chunk.end, chunk.parameters_begin);

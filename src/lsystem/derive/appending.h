@@ -13,8 +13,18 @@ namespace espalier::lsystem {
 /// string; of parts that are joined, each counts its own from there.
 class GrowingPart {
 public:
+    /// Modules of the old string that live on.
+    struct Run {
+        std::size_t begin, end;
+        const double* values;
+        std::size_t parameters;
+        std::size_t modules_before, parameters_before;  ///< of the part's own string
+    };
+    /// Whether long runs of them are copied at once, or when the parts are joined: then they are copied only once.
+    enum class Runs { copied, joined };
+
     /// `bytes` counts what all strings of this step hold.
-    GrowingPart(ModuleString& string, const StepInput& input, std::atomic<std::size_t>& bytes);
+    GrowingPart(ModuleString& string, const StepInput& input, std::atomic<std::size_t>& bytes, Runs runs);
 
     void append(LetterId letter, const double* values, std::size_t arity, const Birth& birth) {
         if (string_.letters.size() == modules_ || parameters_ - string_.parameters.size() < arity) grow(1, arity);
@@ -25,6 +35,10 @@ public:
     /// Appends modules of the old string that live on; `parameters` begin at `values`.
     void append_run(std::size_t begin, std::size_t end, const double* values, std::size_t parameters);
 
+    const std::vector<Run>& runs() const { return runs_; }
+    /// Of the part's own string, and of the runs.
+    Extent extent() const;
+
     AddedSiblings siblings;
     std::vector<std::uint64_t> uses;  ///< by production of the main L-system, for when memory runs out
 
@@ -34,6 +48,8 @@ private:
     ModuleString& string_;
     const StepInput& input_;
     std::atomic<std::size_t>& bytes_;
+    const bool joins_runs_;
+    std::vector<Run> runs_;
     std::size_t modules_ = 0, parameters_ = 0;  ///< so many have room
     std::size_t held_ = 0;                      ///< bytes of that
 };

@@ -146,8 +146,9 @@ void Derivation::State::rewrite_in_order(const StepInput& input, ModuleString& t
     // A small string is written to the thread's memory first, so that the plant's has no more room than it needs.
     const bool is_small = input.from.size() <= grain;
     ModuleString& written = is_small ? scratch->pieces[0] : to;
+    const auto runs = is_small ? GrowingPart::Runs::joined : GrowingPart::Runs::copied;
     std::deque<GrowingPart> parts;
-    OrderedStep ordered(*this, input, parts.emplace_back(written, input, bytes));
+    OrderedStep ordered(*this, input, parts.emplace_back(written, input, bytes, runs));
     ordered.run(input.from);
     if (is_small)
         join(input, scratch->pieces, parts, bytes_before(input), to);

@@ -85,7 +85,7 @@ std::size_t StringWalk::run_along(std::size_t begin, std::size_t end, std::size_
         assert(letters[i] < symbols_->levels[0].size());
         if (!with_pictures && i >= acts_before) {
             const std::size_t ahead = next_action(i, std::min(end, i + least_run));
-            acts_before = ahead + 1;
+            acts_before = ahead + least_run;  // short runs seldom stand alone
             if (ahead - i == least_run) i = go_ahead(i, end, at);
             if (i == end) break;
         }
