@@ -20,7 +20,9 @@ namespace fs = std::filesystem;
 class Resume final : public Command {
 public:
     explicit Resume(CLI::App& program)
-        : Command(program, "resume", "continue an interrupted run from its last checkpoint"), disk_(app()), blocks_(app()) {
+        : Command(program, "resume", "continue an interrupted run from its last checkpoint"),
+          disk_(app()),
+          blocks_(app()) {
         app().add_option("folder", run_, "the folder of the run")->required();
         app()
             .add_option("--checkpoint-every", checkpoint_every_,

@@ -26,7 +26,7 @@ struct RunArguments {
     int checkpoint_every = 0;
     bool resume = false;  ///< goes on from the checkpoint in `output`
     std::size_t memory = 0;
-    std::size_t disk = 0;   ///< bytes; 0: the default
+    std::size_t disk = 0;  ///< bytes; 0: the default
     std::size_t blocks = 0, resident = 1;
     double timeout = 3600;  ///< seconds that a process may take to answer in one step; 0: any time
     bool quiet = false;

@@ -86,9 +86,10 @@ std::vector<std::int32_t> first_points(const std::vector<FrameGeometry>& pieces)
         points += piece.points.size();
         corners += piece.lines.connectivity.size() + piece.polygons.connectivity.size();
         if (std::max(points, corners) > std::size_t{std::numeric_limits<std::int32_t>::max()}) {
-            throw UserError(fmt::format("a frame of more than {} points does not fit; look at a piece of it, as "
-                                        "the files that plants.pvd names",
-                                        std::numeric_limits<std::int32_t>::max()));
+            throw UserError(
+                fmt::format("a frame of more than {} points does not fit; look at a piece of it, as "
+                            "the files that plants.pvd names",
+                            std::numeric_limits<std::int32_t>::max()));
         }
     }
     return firsts;

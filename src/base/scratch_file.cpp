@@ -60,8 +60,8 @@ void ScratchFile::clear() {
 }
 
 void ScratchFile::fail(const char* what, const std::error_code& error) const {
-    throw RunError(fmt::format("cannot {} a file for what waits on disk in {}: {}", what, folder_.string(),
-                               error.message()));
+    throw RunError(
+        fmt::format("cannot {} a file for what waits on disk in {}: {}", what, folder_.string(), error.message()));
 }
 
 }  // namespace espalier

@@ -71,9 +71,7 @@ public:
 
 private:
     void regrow(ModuleString& to);
-    const Reusable<Interpretation>& shown() const {
-        return is_staged_ ? staged_ : interpretation;
-    }
+    const Reusable<Interpretation>& shown() const { return is_staged_ ? staged_ : interpretation; }
     const Derivation& drawing() const { return regrown_ ? *regrown_ : derivation; }
     template <class Rewrite>
     void rewrite(const Rewrite& rewrite, ModuleString* spare);

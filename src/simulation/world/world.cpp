@@ -387,8 +387,8 @@ Frame World::State::frame_of(std::span<const GrowingPlant> some) const {
     Frame frame{step, time(), {}, &environment->fields(), is_at_end(), environment.get()};
     frame.plants.reserve(some.size());
     for (const GrowingPlant& plant : some) {
-        frame.plants.push_back(plant.frame(spread ? spread->statistics(*environment, plant)
-                                                  : environment->statistics(plant.number)));
+        frame.plants.push_back(
+            plant.frame(spread ? spread->statistics(*environment, plant) : environment->statistics(plant.number)));
     }
     return frame;
 }

@@ -38,7 +38,8 @@ bool is_frame_file(const fs::path& path) {
     const std::string extension = path.extension().string(), name = path.stem().string();
     const std::size_t dash = std::min(name.find('-'), name.size());
     const bool is_piece = dash == name.size() || is_number(std::string_view(name).substr(dash + 1));
-    return is_number(std::string_view(name).substr(0, dash)) && is_piece && (extension == ".vtp" || extension == ".vti" || extension == ".vdb");
+    return is_number(std::string_view(name).substr(0, dash)) && is_piece &&
+           (extension == ".vtp" || extension == ".vti" || extension == ".vdb");
 }
 
 // ".plants.4711.part.pvd", named by the process: what a killed run was writing.

@@ -46,7 +46,8 @@ public:
     Skeleton(const Settings& settings, const RecorderContext& context)
         : folder_(context.folder),
           collection_(context.folder / "plants.pvd"),
-          most_points_(static_cast<std::size_t>(settings.integer_or("points_per_file", 1 << 22, Range::between(1, 1e9)))),
+          most_points_(
+              static_cast<std::size_t>(settings.integer_or("points_per_file", 1 << 22, Range::between(1, 1e9)))),
           columns_(std::filesystem::path(settings.place().file).parent_path(), settings) {}
 
     std::vector<std::string> organs() const override { return columns_.organs(); }
