@@ -45,7 +45,7 @@ public:
             reads_plants =
                 (timeline_ && timeline_->reads_plants()) || (options.recorder && options.recorder->reads_plants());
         });
-        if (options.blocks > 0) keep_on_disk(reads_plants);
+        if (options.blocks > 0) together(options.ranks, [&] { keep_on_disk(reads_plants); });
         if (options.resume) restore();
         if (!any(options.ranks, reads_plants)) world_.skip_geometry();
     }
