@@ -4,25 +4,18 @@
 #include "espalier/base/stop.h"
 
 #include "base/bytes.h"
-#include "simulation/scene/expressions.h"
 #include "simulation/scene/scene_keyframes.h"
 #include "simulation/spread/plant_bytes.h"
-#include "simulation/spread/spread.h"
 #include "simulation/world/every_plant.h"
-#include "simulation/world/growing_plant.h"
-#include "simulation/world/memory_budget.h"
-#include "simulation/world/plant_store.h"
+#include "simulation/world/world_state.h"
 #include "turtle/asking.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <functional>
-#include <map>
 #include <memory>
-#include <optional>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -44,103 +37,7 @@ private:
     std::chrono::steady_clock::time_point begin_;
 };
 
-// A plant's name as the name of a folder; names that differ stay different.
-std::string folder_of(const std::string& name) {
-    std::string folder;
-    for (const char c : name) {
-        const bool plain =
-            std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' || (c == '.' && !folder.empty());
-        folder += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-    }
-    return folder;
-}
-
-// What a scene leaves open: plants draw by their number in the scene, and bear their model's name with a number.
-Scene with_defaults(Scene scene) {
-    std::set<std::string> names;
-    for (const Plant& plant : scene.plants) names.insert(plant.name);
-    for (std::size_t i = 0; i < scene.plants.size(); ++i) {
-        Plant& plant = scene.plants[i];
-        if (!plant.stream) plant.stream = static_cast<std::uint32_t>(i);
-        if (!plant.name.empty()) continue;
-        const std::string stem = std::filesystem::path(source_of(*plant.model).name).stem().string();
-        plant.name = stem;
-        for (int number = 2; !names.insert(plant.name).second; ++number)
-            plant.name = fmt::format("{}-{}", stem, number);
-    }
-    return scene;
-}
-
 }  // namespace
-
-struct World::State {
-    /// What the recorders of a run read.
-    struct Recorded {
-        bool anything = false, fields = false, plants = false;
-    };
-
-    State(const Scene& described, std::size_t bytes, const std::filesystem::path& files,
-          std::shared_ptr<Printout> prints, Ranks* ranks);
-
-    void all_do(const std::function<void()>& stage) { together(spread ? &spread->ranks() : nullptr, stage); }
-    void begin_step();
-    void end_step();
-    void agree_on_ends();
-    const Recorded& what_is_recorded();
-    void gather_frame();
-    void restore(std::istream& in);
-
-    void share_out_memory();
-    void make_environment();
-    void make_plants(const std::filesystem::path& files);
-    void set_lengths();
-    DerivationSettings derivation_settings(const Plant& plant, const std::filesystem::path& files) const;
-    double time() const { return step * scene.dt; }
-    using Stage = void (GrowingPlant::*)(ModuleString*);
-    void grow(Stage stage);
-    void rewrite(std::span<GrowingPlant> some, Stage stage);
-    void interpret(std::span<GrowingPlant> some);
-    void wake(std::span<GrowingPlant> some);
-    void rest(std::span<GrowingPlant> some);
-    template <class Action>
-    void for_waiting(std::span<GrowingPlant> some, const Action& action);
-    void record_parts();
-    void give_to_recorders(std::span<const GrowingPlant> some, bool begins, bool ends);
-    Frame frame_of(std::span<const GrowingPlant> some) const;
-    bool is_at_end() const { return stopped || step >= last_step(); }
-    int last_step() const { return scene.last_frame.value_or(longest); }
-    void note_ends();
-    void find_fields_read();
-    void take_fields();
-    void store_answers();
-    void exchange();
-
-    std::shared_ptr<Printout> printout;
-    Scene scene;
-    std::size_t budget;  ///< bytes for plants and fields
-    MemoryBudget memory;
-    bool is_seen = true;
-    ReadLog* reads = ReadLog::current();  ///< log of the thread that makes the world
-    std::vector<GrowingPlant> plants;
-    std::unique_ptr<Environment> environment;
-    std::unique_ptr<Spread> spread;        ///< null: all plants are here
-    std::unique_ptr<PlantStore> store;     ///< null: all plants are in memory
-    std::vector<std::string> fields_read;  ///< by turtles
-    FieldValues fields;                    ///< while turtles walk, and after a restart until then
-    bool has_restored_fields = false;
-    std::vector<Recorder*> recorders;
-    std::optional<Recorded> recorded;                 ///< by the first rank; asked for once
-    std::vector<std::string> gathered;                ///< states of plants of other ranks, for a checkpoint
-    std::size_t modules_of_all = 0;                   ///< on all ranks
-    bool is_saved = false;                            ///< before the step, for a checkpoint: plants may move
-    double busy = 0;                                  ///< seconds of work on the plants since they might have moved
-    std::uint64_t sent_messages = 0, sent_bytes = 0;  ///< before the step
-    int step = 0;
-    int longest = 0;  ///< derivation length of the plants
-    bool stopped = false;
-    StageTimes times;
-    std::vector<Diagnostic> warnings;
-};
 
 void World::start() {
     state_->begin_step();
@@ -392,106 +289,6 @@ Frame World::State::frame_of(std::span<const GrowingPlant> some) const {
     }
     return frame;
 }
-
-std::filesystem::path folder_with(const Model& model) {
-    const std::filesystem::path folder = model.path.parent_path();
-    return folder.empty() ? "." : folder;
-}
-
-World::State::State(const Scene& described, std::size_t bytes, const std::filesystem::path& files,
-                    std::shared_ptr<Printout> prints, Ranks* ranks)
-    : printout(prints ? std::move(prints) : std::make_shared<Printout>()),
-      scene(with_defaults(described)),
-      budget(bytes),
-      memory(share_memory(bytes, 0).plants) {
-    make_environment();
-    share_out_memory();
-    make_plants(files);
-    find_fields_read();
-    set_lengths();
-    if (!ranks) return;
-    spread = std::make_unique<Spread>(*ranks, scene, *environment, fields_read);
-    spread->mark(plants);
-    for (const std::string& note : spread->notes(*environment)) {
-        warnings.push_back({Diagnostic::Severity::warning, {}, note});
-    }
-}
-
-// Plants get what the fields leave, and fields what the plants leave.
-void World::State::share_out_memory() {
-    // Room for fields to double ends at half of the budget, which those that cannot grow never exceed.
-    const std::size_t kept = environment->memory_kept();
-    memory.set_bytes(share_memory(budget, std::min(kept, std::max(kept / 2, budget / 2))).plants);
-    const std::size_t most = share_memory(budget, 0).plants;
-    environment->limit_memory(most - std::min(most, memory.held()));
-}
-
-void World::State::make_environment() {
-    const SceneEnvironment& described = scene.environment;
-    const auto count = static_cast<std::uint32_t>(scene.plants.size());
-    const EnvironmentContext context{"", scene.domain, scene.seed, count, budget / 2, &warnings};
-    try {
-        environment = std::make_unique<Environment>(described.processes, context);
-    } catch (const UserError& error) {
-        throw explained(error, scene.computed);
-    }
-    for (const auto& process : described.processes) process.second.reject_unread();
-    if (described.in_time) described.in_time->check(*environment);
-    if (!described.default_process.empty()) environment->set_default(described.default_process);
-    if (described.routed) environment->route_by_first_parameter();
-    if (described.keeps_unanswered) environment->keep_unanswered();
-}
-
-void World::State::make_plants(const std::filesystem::path& files) {
-    std::map<const CompiledModel*, std::shared_ptr<const SymbolTable>> symbols;
-    plants.reserve(scene.plants.size());
-    std::size_t held = 0;  // by arrays of the plants so far
-    for (const Plant& plant : scene.plants) {
-        const Model& model = source_of(*plant.model);
-        environment->require_answers(model, plant.name);
-        std::shared_ptr<const SymbolTable>& table = symbols[plant.model.get()];
-        if (!table) table = symbol_table(model);
-        const auto number = static_cast<std::uint32_t>(plants.size());
-        DerivationSettings settings = derivation_settings(plant, files);
-        settings.memory -= held;
-        const GrowingPlant& made = plants.emplace_back(number, plant, table, settings);
-        held = std::min(held + made.derivation.working_memory({}), memory.bytes());
-    }
-}
-
-DerivationSettings World::State::derivation_settings(const Plant& plant, const std::filesystem::path& files) const {
-    DerivationSettings settings;
-    settings.seed = scene.seed;
-    settings.plant = *plant.stream;
-    settings.lineage = true;
-    settings.memory = memory.bytes();
-    settings.printout = printout;
-    settings.input_folder = folder_with(source_of(*plant.model));
-    if (!files.empty()) settings.output_folder = scene.plants.size() == 1 ? files : files / folder_of(plant.name);
-    return settings;
-}
-
-// The scene's steps are the derivation length of all plants; if it gives none, the longest of theirs is. An animation
-// leaves them alone, but a run goes on to its first frame.
-void World::State::set_lengths() {
-    note_ends();
-    if (scene.steps || !scene.frames) {
-        const int length = scene.steps.value_or(longest);
-        for (GrowingPlant& plant : plants) plant.set_length(length);
-        note_ends();
-    } else if (!scene.last_frame && longest < scene.frames->first) {
-        scene.last_frame = scene.frames->first;
-    }
-}
-
-World::World(const Scene& scene, std::size_t memory, const std::filesystem::path& files,
-             std::shared_ptr<Printout> printout, Ranks* ranks) {
-    together(ranks, [&] { state_ = std::make_unique<State>(scene, memory, files, std::move(printout), ranks); });
-}
-
-World::~World() = default;
-World::World(World&&) noexcept = default;
-World& World::operator=(World&&) noexcept = default;
 
 void World::attach(Recorder& recorder) {
     state_->recorders.push_back(&recorder);

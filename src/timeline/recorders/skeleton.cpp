@@ -174,8 +174,8 @@ const Registered<RecorderType> entry{
      "            of F, and the 1st of ?E after its answer, whose queries become points\n"
      "organs      []; arrays of what a process knows of each organ, as in [\"light.absorbed\", \"light.sunlit\"]; the\n"
      "            help of the process names them, organ_units in the files has their units\n"
-     "points_per_file\n"
-     "            4194304; a frame of more points is cut between plants, into plants/NNNN.vtp, plants/NNNN-1.vtp, ...",
+     "points_per_file  4194304; a frame of more points is cut between plants, into plants/NNNN.vtp, plants/NNNN-1.vtp, "
+     "...",
      [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
          auto recorder = std::make_unique<Skeleton>(settings, context);
          if (!settings.flag_or("skeleton", true)) return nullptr;

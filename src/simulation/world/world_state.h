@@ -1,0 +1,94 @@
+// What a world consists of, for the files that implement it.
+#pragma once
+
+#include "espalier/base/read_log.h"
+#include "espalier/environment/environment.h"
+#include "espalier/simulation/world.h"
+
+#include "simulation/spread/spread.h"
+#include "simulation/world/growing_plant.h"
+#include "simulation/world/memory_budget.h"
+#include "simulation/world/plant_store.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace espalier::simulation {
+
+struct World::State {
+    /// What the recorders of a run read.
+    struct Recorded {
+        bool anything = false, fields = false, plants = false;
+    };
+
+    State(const Scene& described, std::size_t bytes, const std::filesystem::path& files,
+          std::shared_ptr<Printout> prints, Ranks* ranks);
+
+    void all_do(const std::function<void()>& stage) { together(spread ? &spread->ranks() : nullptr, stage); }
+    void begin_step();
+    void end_step();
+    void agree_on_ends();
+    const Recorded& what_is_recorded();
+    void gather_frame();
+    void restore(std::istream& in);
+
+    void share_out_memory();
+    void make_environment();
+    void make_plants(const std::filesystem::path& files);
+    void set_lengths();
+    DerivationSettings derivation_settings(const Plant& plant, const std::filesystem::path& files) const;
+    double time() const { return step * scene.dt; }
+    using Stage = void (GrowingPlant::*)(ModuleString*);
+    void grow(Stage stage);
+    void rewrite(std::span<GrowingPlant> some, Stage stage);
+    void interpret(std::span<GrowingPlant> some);
+    void wake(std::span<GrowingPlant> some);
+    void rest(std::span<GrowingPlant> some);
+    template <class Action>
+    void for_waiting(std::span<GrowingPlant> some, const Action& action);
+    void record_parts();
+    void give_to_recorders(std::span<const GrowingPlant> some, bool begins, bool ends);
+    Frame frame_of(std::span<const GrowingPlant> some) const;
+    bool is_at_end() const { return stopped || step >= last_step(); }
+    int last_step() const { return scene.last_frame.value_or(longest); }
+    void note_ends();
+    void find_fields_read();
+    void take_fields();
+    void store_answers();
+    void exchange();
+
+    std::shared_ptr<Printout> printout;
+    Scene scene;
+    std::size_t budget;  ///< bytes for plants and fields
+    MemoryBudget memory;
+    bool is_seen = true;
+    ReadLog* reads = ReadLog::current();  ///< log of the thread that makes the world
+    std::vector<GrowingPlant> plants;
+    std::unique_ptr<Environment> environment;
+    std::unique_ptr<Spread> spread;        ///< null: all plants are here
+    std::unique_ptr<PlantStore> store;     ///< null: all plants are in memory
+    std::vector<std::string> fields_read;  ///< by turtles
+    FieldValues fields;                    ///< while turtles walk, and after a restart until then
+    bool has_restored_fields = false;
+    std::vector<Recorder*> recorders;
+    std::optional<Recorded> recorded;                 ///< by the first rank; asked for once
+    std::vector<std::string> gathered;                ///< states of plants of other ranks, for a checkpoint
+    std::size_t modules_of_all = 0;                   ///< on all ranks
+    bool is_saved = false;                            ///< before the step, for a checkpoint: plants may move
+    double busy = 0;                                  ///< seconds of work on the plants since they might have moved
+    std::uint64_t sent_messages = 0, sent_bytes = 0;  ///< before the step
+    int step = 0;
+    int longest = 0;  ///< derivation length of the plants
+    bool stopped = false;
+    StageTimes times;
+    std::vector<Diagnostic> warnings;
+};
+
+}  // namespace espalier::simulation
