@@ -1,8 +1,7 @@
 // How a world is made of a scene.
-#include "simulation/world/world_state.h"
-
 #include "simulation/scene/expressions.h"
 #include "simulation/scene/scene_keyframes.h"
+#include "simulation/world/world_state.h"
 
 #include <fmt/format.h>
 
