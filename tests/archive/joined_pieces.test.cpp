@@ -1,6 +1,7 @@
 // Frames that are cut into several files read back as one.
 #include "archive/joined_pieces.h"
 
+#include "archive/equal_columns.h"
 #include "archive/recorded_folder.h"
 #include "catch.h"
 
@@ -10,28 +11,6 @@
 
 using namespace espalier;
 using namespace espalier::archive;
-
-namespace {
-
-void check_same(const FrameAttributes& a, const FrameAttributes& b) {
-    CHECK(a.identities == b.identities);
-    CHECK(a.parents == b.parents);
-    CHECK(a.plants == b.plants);
-    CHECK(a.symbols == b.symbols);
-    CHECK(a.births == b.births);
-    CHECK(a.orders == b.orders);
-    CHECK(a.colours == b.colours);
-    CHECK(a.kinds == b.kinds);
-    CHECK(a.rgb == b.rgb);
-}
-
-void check_same(const FrameCells& a, const FrameCells& b) {
-    CHECK(a.first == b.first);
-    CHECK(a.offsets == b.offsets);
-    CHECK(a.connectivity == b.connectivity);
-}
-
-}  // namespace
 
 TEST_CASE("a frame in several files is the frame in one", "[reading]") {
     const RecordedFolder whole, cut("points_per_file = 1\n");
@@ -50,11 +29,11 @@ TEST_CASE("a frame in several files is the frame in one", "[reading]") {
         CHECK(a.textures == b.textures);
         CHECK(a.back_colours == b.back_colours);
         CHECK(a.symbol_names == b.symbol_names);
-        check_same(a.of_points, b.of_points);
-        check_same(a.of_cells, b.of_cells);
-        check_same(a.vertices, b.vertices);
-        check_same(a.lines, b.lines);
-        check_same(a.polygons, b.polygons);
+        check_equal(a.of_points, b.of_points);
+        check_equal(a.of_cells, b.of_cells);
+        check_equal(a.vertices, b.vertices);
+        check_equal(a.lines, b.lines);
+        check_equal(a.polygons, b.polygons);
         REQUIRE(b.parameters.size() == 2);
         for (const auto& [name, column] : a.parameters) {
             const auto& other = b.parameters.at(name);

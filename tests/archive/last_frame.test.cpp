@@ -5,6 +5,7 @@
 #include "espalier/base/error.h"
 #include "espalier/simulation/simulation.h"
 
+#include "archive/equal_columns.h"
 #include "catch.h"
 #include "temporary_folder.h"
 
@@ -21,24 +22,6 @@ axiom: !(0.2) A(1, 5)
 A(n, m) --> F(n) [ +(40) F(0.5) @O(0.3) ] [ -(40) @o(0.2) ~l { . f . +(120) f . } @L("%d", m) ] A(n + 1, m - 1)
 endlsystem
 )";
-
-void check_equal(const FrameAttributes& a, const FrameAttributes& b) {
-    CHECK(a.identities == b.identities);
-    CHECK(a.parents == b.parents);
-    CHECK(a.plants == b.plants);
-    CHECK(a.symbols == b.symbols);
-    CHECK(a.births == b.births);
-    CHECK(a.orders == b.orders);
-    CHECK(a.colours == b.colours);
-    CHECK(a.kinds == b.kinds);
-    CHECK(a.rgb == b.rgb);
-}
-
-void check_equal(const FrameCells& a, const FrameCells& b) {
-    CHECK(a.offsets == b.offsets);
-    CHECK(a.connectivity == b.connectivity);
-    CHECK(a.first == b.first);
-}
 
 struct GrownTwice {
     TemporaryFolder folder;

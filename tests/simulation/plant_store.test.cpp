@@ -2,7 +2,7 @@
 #include "espalier/simulation/simulation.h"
 
 #include "catch.h"
-#include "recorded_files.h"
+#include "simulation/shading_stand.h"
 #include "temporary_folder.h"
 
 #include <fmt/format.h>
@@ -17,19 +17,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const char* const shading =
-    "environment light;\nlsystem: 1\nseed: 2\nderivation length: 9\naxiom: A(1)\n"
-    "A(x) --> F(x)?light(1)[+A(x*0.9)?light(1)]/(90)A(x) : 1\n"
-    "A(x) --> F(x)[-A(x*0.8)?light(1)]A(x*0.99)?light(1) : 2\n"
-    "?light(q) : q < 0.2 --> \nF(x) : x < 4 --> F(x*1.01)\nhomomorphism\nA(x) --> @O(0.1)\nendlsystem\n";
-
 // Turtles answer, too, and the module that follows a query matters to the process.
 const char* const pruned =
     "environment light;\nlsystem: 1\nderivation length: 7\naxiom: A\n"
     "A --> F(1)?P(0,0,0)?light(1)P(2)[+A]/(137)A\n"
     "?P(x,y,z) : y > 3 --> @O(x*x)\n?light(q) > P(s) : q < 0.9 --> F(q*s)\nendlsystem\n";
-
-const char* const light = "[environment.light]\nprocess = 'voxel-shade'\nvoxel = 0.5\nmode = 'attenuate'\ndepth = 5\n";
 
 class Stored : public TemporaryFolder {
 public:
@@ -58,15 +50,7 @@ public:
         run(scene, options);
     }
 
-    void check_same(const std::string& folder) const {
-        const auto whole = recorded_files(path() / "whole"), stored = recorded_files(path() / folder);
-        REQUIRE(whole.size() > 10);
-        REQUIRE(stored.size() == whole.size());
-        for (const auto& [name, bytes] : whole) {
-            INFO(name);
-            CHECK(stored.at(name) == bytes);
-        }
-    }
+    void check_same(const std::string& folder) const { check_same_files(path() / "whole", path() / folder); }
 };
 
 }  // namespace

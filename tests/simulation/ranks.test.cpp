@@ -2,7 +2,7 @@
 #include "espalier/simulation/simulation.h"
 
 #include "catch.h"
-#include "recorded_files.h"
+#include "simulation/shading_stand.h"
 #include "simulation/spread/blocks.h"
 #include "temporary_folder.h"
 #include "thread_ranks.h"
@@ -20,13 +20,6 @@ using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
 namespace {
-
-// Branches of 2 m and more reach across the borders of blocks that are 2 m wide.
-const char* const shading =
-    "environment light;\nlsystem: 1\nseed: 2\nderivation length: 9\naxiom: A(1)\n"
-    "A(x) --> F(x)?light(1)[+A(x*0.9)?light(1)]/(90)A(x) : 1\n"
-    "A(x) --> F(x)[-A(x*0.8)?light(1)]A(x*0.99)?light(1) : 2\n"
-    "?light(q) : q < 0.2 --> \nF(x) : x < 4 --> F(x*1.01)\nhomomorphism\nA(x) --> @O(0.1)\nendlsystem\n";
 
 class Spread : public TemporaryFolder {
 public:
@@ -58,18 +51,8 @@ public:
         run(scene, options);
     }
 
-    void check_same(const std::string& folder) const {
-        const auto alone = recorded_files(path() / "alone"), spread = recorded_files(path() / folder);
-        REQUIRE(alone.size() > 10);
-        REQUIRE(spread.size() == alone.size());
-        for (const auto& [name, bytes] : alone) {
-            INFO(name);
-            CHECK(spread.at(name) == bytes);
-        }
-    }
+    void check_same(const std::string& folder) const { check_same_files(path() / "alone", path() / folder); }
 };
-
-const char* const light = "[environment.light]\nprocess = 'voxel-shade'\nvoxel = 0.5\nmode = 'attenuate'\ndepth = 5\n";
 
 bool all_are_silent(const std::vector<std::string>& errors) {
     return std::all_of(errors.begin(), errors.end(), [](const std::string& error) { return error.empty(); });

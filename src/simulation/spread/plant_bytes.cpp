@@ -123,14 +123,17 @@ void get_geometry(std::istream& in, PlantGeometry& drawn) {
     drawn.bounds = get<Box>(in);
 }
 
+std::size_t following_at(const Query& query, const ModuleString& string) {
+    if (query.following_parameters.empty()) return 0;
+    return static_cast<std::size_t>(query.following_parameters.data() - string.parameters.data());
+}
+
 void put_plant(std::ostream& out, const GrowingPlant& plant) {
     const ModuleString& string = *plant.string;
     save_string(string, out);
     std::vector<SentQuery> queries;
     for (const Query& query : plant.interpretation->queries) {
-        const bool has_following = !query.following_parameters.empty();
-        const auto at = has_following ? query.following_parameters.data() - string.parameters.data() : 0;
-        queries.push_back(sent(query, static_cast<std::size_t>(at)));
+        queries.push_back(sent(query, following_at(query, string)));
     }
     put_column(out, queries);
     put_column(out, plant.interpretation->answers);

@@ -23,6 +23,9 @@ void put_plant(std::ostream& out, const GrowingPlant& plant);
 /// `step` says which surfaces the plant has.
 void get_plant(std::istream& in, GrowingPlant& plant, int step);
 
+/// Where the parameters of the module that follows a query begin in the plant's string; 0 if it has none.
+std::size_t following_at(const Query& query, const ModuleString& string);
+
 /// What lasts of a plant from step to step.
 void put_state(std::ostream& out, const GrowingPlant& plant);
 /// Its string takes no more than `memory` bytes. Throws RunError for bytes that are damaged.

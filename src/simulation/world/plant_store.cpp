@@ -23,9 +23,7 @@ std::vector<QueryPlace> places_of(const QueryColumn& queries, const ModuleString
     std::vector<QueryPlace> places;
     places.reserve(queries.size());
     for (const Query& query : queries) {
-        const bool has_following = !query.following_parameters.empty();
-        const auto following = has_following ? query.following_parameters.data() - string.parameters.data() : 0;
-        places.push_back({query.parameters_at, static_cast<std::uint64_t>(following),
+        places.push_back({query.parameters_at, following_at(query, string),
                           static_cast<std::uint32_t>(query.parameters.size()),
                           static_cast<std::uint32_t>(query.following_parameters.size())});
     }

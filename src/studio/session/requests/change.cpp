@@ -11,14 +11,24 @@
 namespace espalier::studio {
 namespace {
 
-struct ChangeRequest {
+/// What requests say of the change that undo takes back.
+struct UndoStep {
+    std::optional<std::string> label;
+    std::optional<bool> transient;
+
+    template <class Self, class Fields>
+    static void declare(Self& self, const Fields& field) {
+        field("label", self.label, "what undo calls it");
+        field("transient", self.transient, "the next change replaces it");
+    }
+};
+
+struct ChangeRequest : UndoStep {
     static constexpr TypeName type{"ChangeRequest", "changes of the document that are made as one"};
     std::optional<std::map<std::string, std::string>> texts;
     std::optional<std::map<std::string, Nullable<std::string>>> settings;
     std::optional<Nullable<std::uint64_t>> seed;
     std::optional<Nullable<int>> steps;
-    std::optional<std::string> label;
-    std::optional<bool> transient;
 
     template <class Self, class Fields>
     static void declare(Self& self, const Fields& field) {
@@ -26,56 +36,46 @@ struct ChangeRequest {
         field("settings", self.settings, "numbers as texts write them, by names; null: as the file on disk says");
         field("seed", self.seed, "null: what the files say");
         field("steps", self.steps, "null: what the files say", between(0, most_steps));
-        field("label", self.label, "what undo calls it");
-        field("transient", self.transient, "the next change replaces it");
+        UndoStep::declare(self, field);
     }
 };
 
-struct GraphRequest : GraphEdit {
+struct GraphRequest : GraphEdit, UndoStep {
     static constexpr TypeName type{"GraphRequest", "an edit of a graph of components"};
     std::string path;
-    std::optional<std::string> label;
-    std::optional<bool> transient;
 
     template <class Self, class Fields>
     static void declare(Self& self, const Fields& field) {
         field("path", self.path, "path of its text");
         GraphEdit::declare(self, field);
-        field("label", self.label, "what undo calls it");
-        field("transient", self.transient, "the next change replaces it");
+        UndoStep::declare(self, field);
     }
 };
 
-struct PointsRequest {
+struct PointsRequest : UndoStep {
     static constexpr TypeName type{"PointsRequest", "other control points of a curve"};
     std::string path;
     int number = 0;
     std::vector<CurvePoint> points;
-    std::optional<std::string> label;
-    std::optional<bool> transient;
 
     template <class Self, class Fields>
     static void declare(Self& self, const Fields& field) {
         field("path", self.path, "path of its text");
         field("number", self.number, "of the curve among those of its text, from 0 on", at_least(0));
         field("points", self.points, "all that the curve is to have; a patch has 16");
-        field("label", self.label, "what undo calls it");
-        field("transient", self.transient, "the next change replaces it");
+        UndoStep::declare(self, field);
     }
 };
 
-struct ViewRequest : ViewEdit {
+struct ViewRequest : ViewEdit, UndoStep {
     static constexpr TypeName type{"ViewRequest", "another value for a setting of a view file"};
     std::string path;
-    std::optional<std::string> label;
-    std::optional<bool> transient;
 
     template <class Self, class Fields>
     static void declare(Self& self, const Fields& field) {
         field("path", self.path, "path of its text");
         ViewEdit::declare(self, field);
-        field("label", self.label, "what undo calls it");
-        field("transient", self.transient, "the next change replaces it");
+        UndoStep::declare(self, field);
     }
 };
 
