@@ -14,6 +14,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
+#include <set>
 
 namespace espalier::analysis {
 
@@ -22,6 +25,10 @@ struct RunAnalysis::Frame {
     double time = 0;
     std::vector<PlantAnalysis> plants;
     std::vector<std::string> symbols;  ///< that the frame knows
+
+    /// Plants lie whole in one of the frame's files.
+    static Frame read(const RecordedRun& run, const RecordedFrame& from, std::span<const std::uint32_t> plants,
+                      const AnalysisOptions& options);
 };
 
 const std::vector<MeasureDescription>& measure_descriptions() {
@@ -33,6 +40,30 @@ const std::vector<MeasureDescription>& measure_descriptions() {
     return all;
 }
 
+RunAnalysis::Frame RunAnalysis::Frame::read(const RecordedRun& run, const RecordedFrame& from,
+                                            std::span<const std::uint32_t> plants, const AnalysisOptions& options) {
+    Frame frame{from.step, from.time, {}, {}};
+    std::map<std::uint32_t, PlantAnalysis> found;
+    const auto add = [&](const FrameGeometry& geometry, const std::vector<std::uint32_t>& some) {
+        for (PlantAnalysis& plant : analyse(geometry, some, options)) found[plant.plant] = std::move(plant);
+    };
+    for (const RecordedFrame& piece : from.pieces()) {
+        const FrameGeometry geometry = run.geometry(piece);
+        const std::set<std::uint32_t> there(geometry.of_points.plants.begin(), geometry.of_points.plants.end());
+        std::vector<std::uint32_t> here;
+        std::copy_if(plants.begin(), plants.end(), std::back_inserter(here),
+                     [&](std::uint32_t plant) { return there.contains(plant); });
+        add(geometry, here);
+        frame.symbols = geometry.symbol_names;
+    }
+    std::vector<std::uint32_t> without_points;
+    std::copy_if(plants.begin(), plants.end(), std::back_inserter(without_points),
+                 [&](std::uint32_t plant) { return !found.contains(plant); });
+    add({}, without_points);
+    for (const std::uint32_t plant : plants) frame.plants.push_back(found.at(plant));
+    return frame;
+}
+
 RunAnalysis::~RunAnalysis() = default;
 
 RunAnalysis::RunAnalysis(const RecordedRun& run, std::span<const RecordedFrame* const> frames,
@@ -40,14 +71,13 @@ RunAnalysis::RunAnalysis(const RecordedRun& run, std::span<const RecordedFrame* 
     : scene_(run.scene()),
       ground_(options.ground > 0 ? options.ground : run.ground_area().value_or(0)),
       frames_(frames.size()) {
+    const std::set<std::uint32_t> wanted(plants.begin(), plants.end());
     for (const RecordedPlant& plant : run.plants()) {
-        if (std::find(plants.begin(), plants.end(), plant.number) != plants.end()) plants_.push_back(plant);
+        names_.push_back(plant.name);
+        if (wanted.contains(plant.number)) plants_.push_back(plant);
     }
-    tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
-        FrameGeometry geometry = run.geometry(*frames[i]);
-        frames_[i] = {frames[i]->step, frames[i]->time, analyse(geometry, plants, options),
-                      std::move(geometry.symbol_names)};
-    });
+    tbb::parallel_for(std::size_t{0}, frames.size(),
+                      [&](std::size_t i) { frames_[i] = Frame::read(run, *frames[i], plants, options); });
     align_layers(options);
     std::vector<std::string> known;
     for (const Frame& frame : frames_) known.insert(known.end(), frame.symbols.begin(), frame.symbols.end());
@@ -76,10 +106,6 @@ void RunAnalysis::align_layers(const AnalysisOptions& options) {
             plant.layers = merged_layers(plant.layers, thickness, low, high, plant.shadow, ground_);
         }
     }
-}
-
-const std::string& RunAnalysis::name_of(std::uint32_t plant) const {
-    return std::find_if(plants_.begin(), plants_.end(), [&](const auto& known) { return known.number == plant; })->name;
 }
 
 RecordedTable RunAnalysis::table() const {
@@ -195,7 +221,7 @@ void RunAnalysis::write_csv(const std::filesystem::path& folder) const {
     for (const Frame& frame : frames_) {
         for (const PlantAnalysis& of : frame.plants) {
             const std::string plant =
-                fmt::format("{},{},{},{}", frame.step, csv_number(frame.time), of.plant, csv_text(name_of(of.plant)));
+                fmt::format("{},{},{},{}", frame.step, csv_number(frame.time), of.plant, csv_text(names_[of.plant]));
             std::vector<double> values;
             for (const Measure& measure : measures()) values.push_back(measure.value(of));
             measured.add_all(plant, values);

@@ -288,6 +288,16 @@ std::vector<std::string> RecordedRun::field_names() const {
     return names;
 }
 
+std::vector<RecordedFrame> RecordedFrame::pieces() const {
+    std::vector<RecordedFrame> pieces{*this};
+    pieces.front().more_plants.clear();
+    for (const fs::path& file : more_plants) {
+        pieces.push_back(pieces.front());
+        pieces.back().plants = file;
+    }
+    return pieces;
+}
+
 FrameGeometry RecordedRun::geometry(const RecordedFrame& frame) const {
     if (frame.geometry) return *frame.geometry;
     if (frame.plants.empty()) {

@@ -57,6 +57,24 @@ std::vector<const RecordedFrame*> frames_of(const RecordedRun& run) {
 
 }  // namespace
 
+TEST_CASE("a frame in several files is measured as in one", "[analysis]") {
+    const RecordedFolder whole, cut("points_per_file = 1\n");
+    const RecordedRun one(whole.folder.path), several(cut.folder.path);
+    REQUIRE(several.frame(4).pieces().size() == 2);
+    const auto rows_of = [](const RecordedRun& run) {
+        return RunAnalysis(run, frames_of(run), numbers_of(run)).table().rows;
+    };
+    const auto a = rows_of(one), b = rows_of(several);
+    REQUIRE(a.size() == 2 * one.frames().size());
+    REQUIRE(b.size() == a.size());
+    for (std::size_t row = 0; row < a.size(); ++row) {
+        for (std::size_t i = 0; i < a[row].size(); ++i) {
+            INFO("row " << row << ", column " << i);
+            CHECK((a[row][i] == b[row][i] || (std::isnan(a[row][i]) && std::isnan(b[row][i]))));
+        }
+    }
+}
+
 TEST_CASE("internodes without length vanish, and what they bear stands on what they stand on", "[analysis]") {
     const std::vector<FrameInternode> internodes{
         internode({0, 0, 0}, {0, 1, 0}, -1), internode({0, 1, 0}, {0, 1, 0}, 0), internode({0, 1, 0}, {0, 2, 0}, 1),

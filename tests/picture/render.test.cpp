@@ -49,6 +49,50 @@ TEST_CASE("render: a picture has its size, several are numbered by their steps",
     CHECK(render_pictures(job, rendered.path("one.png")) == std::vector{rendered.path("one.png")});
 }
 
+TEST_CASE("render: a frame in several files is drawn one file at a time, as a frame in one", "[pictures]") {
+    if (!can_draw()) return;
+    const double depth = GENERATE(0.0, 3.0);  // a flat run, and one with shadows
+    const bool is_parallel = GENERATE(false, true);
+    const auto drawn = [&](const std::string& settings) {
+        const RunFolder folder;
+        Timeline timeline(folder.path, timeline_table("fields = [\"light\"]\n" + settings), 0);
+        const HandmadePlant left = branched_plant();
+        HandmadePlant right = branched_plant();
+        right.number = 1;
+        for (Internode& internode : right.interpretation.geometry.internodes) {
+            internode.base += glm::dvec3(0.5, 0, depth);
+            internode.tip += glm::dvec3(0.5, 0, depth);
+        }
+        right.add_triangle(50);
+        Fields fields;
+        fields.provide(light_field(0.5f));
+        record(timeline, 0, {&left, &right}, fields);
+        timeline.finish();
+        timeline.write_run(run_json);
+        const RecordedRun run(folder.path);
+        CHECK(run.frame(0).pieces().size() == (settings.empty() ? 1 : 2));
+        CameraPlace camera{20, 10};
+        camera.is_parallel = is_parallel;
+        PictureStyle style;
+        style.fields.push_back({"light"});
+        const RenderJob job{run, {&run.frame(0)}, style, camera, 0, true, false, {96, 72}, {}};
+        return read_png(render_pictures(job, folder.path / "picture.png").front());
+    };
+    const auto whole = drawn(""), cut = drawn("points_per_file = 1\n");
+    int different = 0, seen = 0;
+    // Light comes from fewer directions where a frame is cut, because that is large.
+    const int most = depth == 0 ? 2 : 30;
+    for (int y = 0; y < 72; ++y) {
+        for (int x = 0; x < 96; ++x) {
+            const Pixel p = pixel_at(*whole, x, y), q = pixel_at(*cut, x, y);
+            seen += !is_white(p);
+            for (std::size_t k = 0; k < 3; ++k) different += std::abs(p[k] - q[k]) > most;
+        }
+    }
+    CHECK(seen > 300);
+    CHECK(different == 0);
+}
+
 TEST_CASE("render: the camera stays where it is while plants grow, and follows if it is told to", "[pictures]") {
     if (!can_draw()) return;
     const Rendered rendered;

@@ -119,6 +119,61 @@ TEST_CASE_METHOD(Stored, "what fails names the plant, and leaves no file of plan
 TEST_CASE_METHOD(Stored, "processes that read whole plants are refused", "[simulation][store]") {
     const Scene described = scene("[environment.light]\nprocess = 'ray-light'\n");
     CHECK_THROWS_WITH(run_with(described, "refused", 2), Contains("'light' reads whole plants"));
+    CHECK_FALSE(fs::exists(path() / "refused"));
+}
+
+TEST_CASE_METHOD(Stored, "the last frame has its plants wherever a run ends", "[simulation][store]") {
+    const std::string last = "[timeline]\nevery = 100\nlifespans = false\nstatistics = false\n";
+    SECTION("at its derivation length") {
+        const Scene described = scene(std::string(light) + last);
+        run_with(described, "whole", 0);
+        run_with(described, "stored", 5);
+        CHECK(recorded_files(path() / "stored").contains("plants/0009.vtp"));
+    }
+    SECTION("where the last of its models calls stop()") {
+        write("stopping.l",
+              "environment light;\nlsystem: 1\nderivation length: 9\naxiom: A(5)\n"
+              "A(n) : n == 0 { stop(1); } --> F\nA(n) --> F?light(1)[+A(n)]A(n-1)\nendlsystem\n");
+        const Scene described = read_scene_text(
+            "[[plant]]\nmodel = 'shading.l'\ngrid = { columns = 4, rows = 3, spacing = 2 }\n"
+            "[[plant]]\nmodel = 'stopping.l'\nposition = [3, 0, 1]\n" +
+                std::string(light) + last,
+            "scene.toml", path());
+        run_with(described, "whole", 0);
+        run_with(described, "stored", 5);
+        CHECK(recorded_files(path() / "stored").contains("plants/0006.vtp"));
+    }
+    const auto expected = recorded_files(path() / "whole"), recorded = recorded_files(path() / "stored");
+    CHECK(recorded == expected);
+}
+
+TEST_CASE_METHOD(Stored, "what is drawn of plants waits only for recorders that will read it", "[simulation][store]") {
+    class AtEvenSteps : public Recorder {
+    public:
+        bool reads_plants_at(int step, bool) const override { return step % 2 == 0; }
+        void record(const Frame& frame) override {
+            for (const PlantFrame& plant : frame.plants) drawn += plant.interpretation->geometry.internodes.size();
+        }
+        void finish() override {}
+
+        std::size_t drawn = 0;
+    };
+    const Scene described = scene(light);
+    World world(described);
+    world.require_waiting();
+    world.keep_on_disk(path(), 3);
+    AtEvenSteps recorder;
+    world.attach(recorder);
+    world.start();
+    std::size_t waiting = world.bytes_of_strings();
+    for (int step = 1; step <= 8; ++step) {
+        recorder.drawn = 0;
+        world.step();
+        INFO("step " << step);
+        CHECK((recorder.drawn > 0) == (step % 2 == 0));
+        if (step % 2 == 0) CHECK(world.bytes_of_strings() > 2 * waiting);
+        waiting = world.bytes_of_strings();
+    }
 }
 
 TEST_CASE_METHOD(Stored, "less memory suffices where plants wait on disk", "[simulation][store]") {

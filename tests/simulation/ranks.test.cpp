@@ -106,6 +106,63 @@ TEST_CASE_METHOD(Spread, "only queries that change answers elsewhere are sent", 
     CHECK(sent(1) > 10 * sent(1000));
 }
 
+TEST_CASE_METHOD(Spread, "the first rank gets the plants of others part by part, and only for frames that show them",
+                 "[simulation][ranks]") {
+    class EveryThird : public Recorder {
+    public:
+        bool reads_plants_at(int step, bool) const override { return step % 3 == 0; }
+        void record(const Frame& frame) override {
+            const auto is_there = [](const PlantFrame& plant) { return !plant.string->empty(); };
+            const auto there = std::count_if(frame.plants.begin(), frame.plants.end(), is_there);
+            parts.push_back({frame.plants.size(), static_cast<std::size_t>(there)});
+        }
+        void finish() override {}
+
+        std::vector<std::pair<std::size_t, std::size_t>> parts;  ///< plants, and of how many the string is there
+    };
+    write("silent.l", "lsystem: 1\nderivation length: 9\naxiom: A\nA --> F[+A]A\nendlsystem\n");
+    const Scene described = read_scene_text(
+        "[[plant]]\nmodel = 'silent.l'\ngrid = { columns = 4, rows = 3, spacing = 2 }\n", "scene.toml", path());
+    EveryThird recorder;
+    std::array<std::vector<std::uint64_t>, 3> sent;
+    const auto errors = on_ranks(3, [&](Ranks& ranks) {
+        World world(described, std::size_t(-1), {}, nullptr, &ranks);
+        if (ranks.rank() == 0) world.attach(recorder);
+        world.start();
+        for (int step = 1; step <= 8; ++step) {
+            world.step();
+            sent[static_cast<std::size_t>(ranks.rank())].push_back(world.times().bytes);
+        }
+    });
+    REQUIRE(all_are_silent(errors));
+    using Parts = std::vector<std::pair<std::size_t, std::size_t>>;
+    const auto parts = [&](std::size_t begin, std::size_t count) {
+        const auto first = recorder.parts.begin() + static_cast<std::ptrdiff_t>(begin);
+        return Parts(first, first + static_cast<std::ptrdiff_t>(count));
+    };
+    CHECK(parts(0, 3) == Parts{{4, 4}, {4, 4}, {4, 4}});  // step 0, as steps 3 and 6
+    CHECK(parts(3, 2) == Parts{{12, 4}, {12, 4}});        // steps 1 and 2: the plants of this rank
+    CHECK(parts(5, 3) == Parts{{4, 4}, {4, 4}, {4, 4}});
+    CHECK(recorder.parts.size() == 3 * 3 + 6);
+    CHECK(sent[1][5] > 100 * sent[1][4]);  // step 6 against step 5
+    CHECK(sent[1][5] > 100 * sent[1][6]);
+}
+
+TEST_CASE_METHOD(Spread, "what other ranks send must fit into the memory", "[simulation][ranks]") {
+    write("large.l", "lsystem: 1\nderivation length: 15\naxiom: A\nA --> F[+A]A\nendlsystem\n");
+    const Scene described = read_scene_text(
+        "[[plant]]\nmodel = 'large.l'\ngrid = { columns = 16, rows = 1, spacing = 9 }\n[timeline]\nevery = "
+        "15\nlifespans = false\nstatistics = false\n",
+        "scene.toml", path());
+    const auto with = [](std::size_t bytes) {
+        return [bytes](RunOptions& options, Ranks&) { options.memory = bytes; };
+    };
+    CHECK(all_are_silent(run_on(2, described, "enough", with(std::size_t{600} << 20))));
+    for (const std::string& error : run_on(2, described, "little", with(std::size_t{155} << 20))) {
+        CHECK_THAT(error, Contains("step 15: what other ranks send of their plants takes"));
+    }
+}
+
 TEST_CASE_METHOD(Spread, "a run goes on from its checkpoint with another number of ranks", "[simulation][ranks]") {
     const Scene described = scene(light);
     run_alone(described);

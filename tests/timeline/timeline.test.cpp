@@ -56,6 +56,19 @@ TEST_CASE("plants need no lineage for recorders that do not read them", "[timeli
     CHECK(Timeline(folder.path / "some", timeline_table("skeleton = false\nlifespans = false\n"), 1).reads_plants());
 }
 
+TEST_CASE("plants are read at steps that become frames, and where the run may end", "[timeline]") {
+    const RunFolder folder;
+    const Timeline some(folder.path / "some", timeline_table("every = 4\nstatistics = false\nlifespans = false\n"), 9);
+    CHECK(some.reads_plants_at(0, false));
+    CHECK(some.reads_plants_at(9, false));
+    const Timeline later(folder.path / "later",
+                         timeline_table("first = 4\nevery = 4\nstatistics = false\nlifespans = false\n"), 9);
+    CHECK_FALSE(later.reads_plants_at(3, false));
+    CHECK(later.reads_plants_at(3, true));
+    CHECK(later.reads_plants_at(4, false));
+    CHECK(Timeline(folder.path / "all", timeline_table("first = 4\nlifespans = false\n"), 9).reads_plants_at(3, false));
+}
+
 TEST_CASE("two timelines into one folder are refused", "[timeline]") {
     const RunFolder folder;
     const Timeline first(folder.path, timeline_table(), 1);

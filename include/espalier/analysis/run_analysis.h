@@ -30,7 +30,8 @@ const std::vector<MeasureDescription>& measure_descriptions();
 
 class RunAnalysis {
 public:
-    /// Measures `plants` (their numbers) in `frames` of `run`. Throws UserError for a leaf symbol no frame knows.
+    /// Measures `plants` (their numbers) in `frames` of `run`. Each thread holds one file of a frame at a time. Throws
+    /// UserError for a leaf symbol no frame knows.
     RunAnalysis(const RecordedRun& run, std::span<const RecordedFrame* const> frames,
                 std::span<const std::uint32_t> plants, const AnalysisOptions& options = {});
     ~RunAnalysis();
@@ -53,11 +54,11 @@ public:
 private:
     struct Frame;
     void align_layers(const AnalysisOptions& options);
-    const std::string& name_of(std::uint32_t plant) const;
 
     std::string scene_;
     double ground_ = 0;
-    std::vector<RecordedPlant> plants_;
+    std::vector<std::string> names_;     ///< of all plants, by number
+    std::vector<RecordedPlant> plants_;  ///< those that are measured
     std::vector<Frame> frames_;
 };
 

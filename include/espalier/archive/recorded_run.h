@@ -78,6 +78,9 @@ struct RecordedFrame {
     std::map<std::string, std::filesystem::path> fields;  ///< .vti, or .vdb where only that was recorded
     std::shared_ptr<const FrameGeometry> geometry;        ///< the plants, where they are in memory instead of a file
     std::vector<std::filesystem::path> more_plants = {};  ///< further files of a frame that is cut between plants
+
+    /// The frame once for each of its files, with this one alone: for those who need not hold all plants at once.
+    std::vector<RecordedFrame> pieces() const;
 };
 
 /// How the author of a model looked at it, as its view file says.

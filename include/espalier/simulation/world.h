@@ -57,10 +57,11 @@ public:
     void skip_geometry();
     /// Before start() or restore(): in memory are at most so many plants at once; the others wait in a file in
     /// `folder`, which only this world sees, and recorders get the frames in parts. Changes no byte of what they
-    /// write. `is_shown`: recorders read plants. Then the stages of a step may not be called one by one, and frame(),
-    /// string() and interpretation() know nothing of plants that wait. Throws UserError for processes that read whole
-    /// plants. Not with `ranks`.
-    void keep_on_disk(const std::filesystem::path& folder, std::size_t in_memory, bool is_shown);
+    /// write. Then the stages of a step may not be called one by one, and frame(), string() and interpretation() know
+    /// nothing of plants that wait. After require_waiting().
+    void keep_on_disk(const std::filesystem::path& folder, std::size_t in_memory);
+    /// Throws UserError if plants cannot wait on disk: for processes that read whole plants, and with `ranks`.
+    void require_waiting() const;
     /// Before start(): the derivation length of all plants, instead of the scene's.
     void set_steps(int steps);
 

@@ -45,6 +45,8 @@ public:
     /// False for recorders that read neither the strings of plants nor what is drawn of them: a run without others
     /// keeps no lineages and draws nothing.
     virtual bool reads_plants() const { return true; }
+    /// False for steps of which it reads no plants, though it does of others. `may_end`: the run may end there.
+    virtual bool reads_plants_at(int /*step*/, bool /*may_end*/) const { return reads_plants(); }
     /// The fields it reads, asked for once, before the first frame; {"all"} for every one. Frames of a timeline hold no
     /// others: to make a field that is not read would cost a step as much as the field itself.
     virtual std::vector<std::string> fields() const { return {}; }

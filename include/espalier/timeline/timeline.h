@@ -31,6 +31,7 @@ public:
     const std::filesystem::path& folder() const { return folder_; }
     /// One of its recorders does.
     bool reads_plants() const override;
+    bool reads_plants_at(int step, bool may_end) const override;
     std::vector<std::string> fields() const override { return fields_; }
     /// All its recorders find the fields that they read.
     void require(const Fields& fields) const override;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <vtkCamera.h>
 #include <vtkContextActor.h>
 #include <vtkContextScene.h>
 #include <vtkNew.h>
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace espalier::picture {
 namespace {
@@ -123,9 +125,34 @@ FramePainter::~FramePainter() {
     window_.window().RemoveRenderer(&stage_.renderer());
 }
 
+vtkSmartPointer<vtkImageData> FramePainter::drawn() {
+    return stage_.style().background.transparent ? window_.image_with_alpha() : window_.image();
+}
+
 vtkSmartPointer<vtkImageData> FramePainter::picture() {
-    const bool transparent = stage_.style().background.transparent;
-    return shrunk(transparent ? *window_.image_with_alpha() : *window_.image(), size_);
+    return shrunk(*drawn(), size_);
+}
+
+void FramePainter::add() {
+    const auto image = drawn();
+    std::vector<float> distances = window_.distances(*stage_.renderer().GetActiveCamera());
+    if (!kept_) {
+        kept_ = image;
+        distances_ = std::move(distances);
+        return;
+    }
+    const auto parts = static_cast<std::size_t>(image->GetNumberOfScalarComponents());
+    const auto* from = static_cast<const unsigned char*>(image->GetScalarPointer());
+    auto* to = static_cast<unsigned char*>(kept_->GetScalarPointer());
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+        if (!(distances[i] < distances_[i])) continue;
+        distances_[i] = distances[i];
+        std::copy_n(from + parts * i, parts, to + parts * i);
+    }
+}
+
+vtkSmartPointer<vtkImageData> FramePainter::picture_of_all() {
+    return shrunk(*std::exchange(kept_, nullptr), size_);
 }
 
 vtkSmartPointer<vtkImageData> FramePainter::traced(const PictureSky& sky, const TraceProgress& progress) {

@@ -11,6 +11,8 @@
 #include <vtkImageData.h>
 #include <vtkSmartPointer.h>
 
+#include <vector>
+
 namespace espalier::picture {
 
 class FramePainter {
@@ -24,13 +26,21 @@ public:
     Stage& stage() { return stage_; }
     /// What the stage shows, 8 bits red, green and blue per pixel, and alpha if the background is transparent.
     vtkSmartPointer<vtkImageData> picture();
+    /// Keeps what the stage shows, where it is nearer than what was kept before.
+    void add();
+    /// What add() kept, as picture(); then nothing is kept.
+    vtkSmartPointer<vtkImageData> picture_of_all();
     /// The same for a style with `light`.
     vtkSmartPointer<vtkImageData> traced(const PictureSky& sky, const TraceProgress& progress = {});
 
 private:
+    vtkSmartPointer<vtkImageData> drawn();
+
     PictureSize size_;
     OffScreenWindow window_;
     Stage stage_;
+    vtkSmartPointer<vtkImageData> kept_;
+    std::vector<float> distances_;  ///< of the pixels that are kept
 };
 
 /// The keys of a legend alone.

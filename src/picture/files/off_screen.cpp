@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 #include <vtkAutoInit.h>
+#include <vtkCamera.h>
+#include <vtkFloatArray.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
@@ -16,7 +18,9 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #if __has_include(<EGL/egl.h>) && __has_include(<EGL/eglext.h>)
 #define ESPALIER_HAS_EGL 1
@@ -197,6 +201,25 @@ vtkSmartPointer<vtkImageData> OffScreenWindow::read_pixels(int kind) {
     reader->ShouldRerenderOff();
     reader->Update();
     return reader->GetOutput();
+}
+
+std::vector<float> OffScreenWindow::distances(vtkCamera& camera) {
+    const Listening listening;
+    if (context_) context_->make_current();
+    vtkNew<vtkFloatArray> depths;
+    const int* size = window_->GetSize();
+    window_->GetZbufferData(0, 0, size[0] - 1, size[1] - 1, depths);
+    const double near = camera.GetClippingRange()[0], far = camera.GetClippingRange()[1];
+    std::vector<float> distances(depths->Begin(), depths->End());
+    for (float& depth : distances) {
+        const double z = depth;
+        if (depth >= 1)
+            depth = std::numeric_limits<float>::infinity();
+        else
+            depth = static_cast<float>(camera.GetParallelProjection() ? std::lerp(near, far, z)
+                                                                      : near * far / (far - z * (far - near)));
+    }
+    return distances;
 }
 
 void OffScreenWindow::write_png(const std::filesystem::path& path) {

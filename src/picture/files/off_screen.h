@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
+class vtkCamera;
 class vtkImageData;
 class vtkRenderWindow;
 
@@ -36,6 +38,9 @@ public:
     vtkSmartPointer<vtkImageData> image();
     /// The same with a fourth part: how opaque each pixel is.
     vtkSmartPointer<vtkImageData> image_with_alpha();
+    /// Of what was rendered last, seen by this camera: how far before it each pixel lies, in the order of image();
+    /// infinite where nothing is.
+    std::vector<float> distances(vtkCamera& camera);
     /// Renders into a file that appears complete or not at all. Throws RunError.
     void write_png(const std::filesystem::path& path);
 

@@ -7,13 +7,16 @@
 #include "picture/files/film.h"
 #include "picture/files/frame_painter.h"
 #include "picture/stage/colouring.h"
+#include "picture/stage/daylight.h"
 #include "picture/stage/legend.h"
 #include "picture/stage/stage_survey.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 
 namespace espalier::picture {
 namespace {
@@ -48,15 +51,19 @@ public:
 
     vtkSmartPointer<vtkImageData> picture(std::size_t i) {
         const std::size_t frame = i / pictures_of_frame(), part = i % pictures_of_frame();
-        if (part == 0) {
-            show(*job_.frames[frame]);
-        } else {
-            show_between(frame, static_cast<double>(part) / static_cast<double>(pictures_of_frame()));
-        }
         CameraPlace place = place_;
         place.azimuth += turned(i);
-        painter_.stage().place_camera(place, job_.follow);
-        auto drawn = job_.style.light ? traced(i, *job_.frames[frame]) : painter_.picture();
+        vtkSmartPointer<vtkImageData> drawn;
+        if (part == 0 && is_in_pieces(*job_.frames[frame])) {
+            drawn = picture_of_pieces(*job_.frames[frame], place);
+        } else {
+            if (part == 0)
+                show(*job_.frames[frame]);
+            else
+                show_between(frame, static_cast<double>(part) / static_cast<double>(pictures_of_frame()));
+            painter_.stage().place_camera(place, job_.follow);
+            drawn = job_.style.light ? traced(i, *job_.frames[frame]) : painter_.picture();
+        }
         if (job_.progress) job_.progress(i + 1, pictures());
         return drawn;
     }
@@ -71,6 +78,37 @@ private:
         if (!unfolding_ && stage.shown() && stage.shown()->step == frame.step) return;
         unfolding_.reset();
         stage.show(frame);
+    }
+
+    // Light paths need all plants at once.
+    bool is_in_pieces(const RecordedFrame& frame) const { return !frame.more_plants.empty() && !job_.style.light; }
+
+    // In memory is one file of the frame at a time.
+    vtkSmartPointer<vtkImageData> picture_of_pieces(const RecordedFrame& frame, const CameraPlace& place) {
+        Stage& stage = painter_.stage();
+        unfolding_.reset();
+        if (!pieces_ || pieces_->step != frame.step) take_pieces(frame);
+        for (const RecordedFrame& piece : pieces_->frames) {
+            stage.show_piece(piece, pieces_->whole, pieces_->daylight);
+            stage.place_camera(place, job_.follow);
+            painter_.add();
+        }
+        return painter_.picture_of_all();
+    }
+
+    void take_pieces(const RecordedFrame& frame) {
+        Stage& stage = painter_.stage();
+        pieces_ = {frame.step, frame.pieces(), stage.survey(std::array{&frame}), nullptr};
+        const PictureStyle& style = stage.style();
+        const Box& box = pieces_->whole.box;
+        if (!style.shading || stage.is_flat() || box.empty()) return;
+        const auto daylight =
+            std::make_shared<Daylight>(box.lower, box.upper, direction_at(style.sun_azimuth, style.sun_elevation));
+        for (const RecordedFrame& piece : pieces_->frames) {
+            stage.show_piece(piece, pieces_->whole, nullptr);
+            stage.add_occluders(*daylight);
+        }
+        pieces_->daylight = daylight;
     }
 
     void show_between(std::size_t frame, double share) {
@@ -119,9 +157,18 @@ private:
         return job_.orbit * static_cast<double>(i) / static_cast<double>(is_whole ? count : count - 1);
     }
 
+    /// A frame in several files, as all its pictures need it.
+    struct Pieces {
+        int step;
+        std::vector<RecordedFrame> frames;
+        StageSurvey whole;
+        std::shared_ptr<const Daylight> daylight;
+    };
+
     const RenderJob& job_;
     FramePainter painter_;
     CameraPlace place_;
+    std::optional<Pieces> pieces_;
     std::optional<archive::Unfolding> unfolding_;  ///< while pictures between two frames are drawn
 };
 

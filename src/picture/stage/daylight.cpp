@@ -36,6 +36,25 @@ void fill(DepthMap& map, std::span<const Occluder> occluders) {
     }
 }
 
+/// The lower and the upper corner of all.
+std::array<glm::vec3, 2> corners_of(std::span<const Occluder> occluders) {
+    glm::vec3 lower(std::numeric_limits<float>::max()), upper(-std::numeric_limits<float>::max());
+    for (const Occluder& occluder : occluders) {
+        for (const glm::vec3& point : occluder.points) {
+            lower = glm::min(lower, point);
+            upper = glm::max(upper, point);
+        }
+    }
+    if (!(lower.x <= upper.x)) lower = upper = glm::vec3(0);
+    return {lower, upper};
+}
+
+std::size_t directions_for(std::span<const Occluder> occluders) {
+    std::size_t triangles = 1;
+    for (const Occluder& occluder : occluders) triangles += occluder.corners.size() / 3;
+    return std::clamp(budget / triangles, fewest_directions, most_directions);
+}
+
 }  // namespace
 
 DepthMap::DepthMap(const glm::vec3& towards, int texels, const glm::vec3& lower, const glm::vec3& upper)
@@ -104,24 +123,24 @@ glm::vec3 direction_at(double azimuth, double elevation) {
     return glm::vec3(std::cos(above) * std::sin(round), std::sin(above), std::cos(above) * std::cos(round));
 }
 
-Daylight::Daylight(std::span<const Occluder> occluders, const glm::vec3& sun) {
-    glm::vec3 lower(std::numeric_limits<float>::max()), upper(-std::numeric_limits<float>::max());
-    std::size_t triangles = 1;
-    for (const Occluder& occluder : occluders) {
-        triangles += occluder.corners.size() / 3;
-        for (const glm::vec3& point : occluder.points) {
-            lower = glm::min(lower, point);
-            upper = glm::max(upper, point);
-        }
-    }
-    if (!(lower.x <= upper.x)) lower = upper = glm::vec3(0);
-    const std::size_t directions = std::clamp(budget / triangles, fewest_directions, most_directions);
+Daylight::Daylight(const glm::vec3& lower, const glm::vec3& upper, const glm::vec3& sun, std::size_t directions) {
     for (std::size_t i = 0; i < directions; ++i) {
         sky_.emplace_back(sky_direction(i, directions), sky_texels, lower, upper);
     }
     sun_.emplace_back(sun, sun_texels, lower, upper);
-    tbb::parallel_for(std::size_t{0}, directions + 1,
-                      [&](std::size_t i) { fill(i < directions ? sky_[i] : sun_[0], occluders); });
+}
+
+Daylight::Daylight(const glm::vec3& lower, const glm::vec3& upper, const glm::vec3& sun)
+    : Daylight(lower, upper, sun, fewest_directions) {}
+
+Daylight::Daylight(std::span<const Occluder> occluders, const glm::vec3& sun)
+    : Daylight(corners_of(occluders)[0], corners_of(occluders)[1], sun, directions_for(occluders)) {
+    add(occluders);
+}
+
+void Daylight::add(std::span<const Occluder> occluders) {
+    tbb::parallel_for(std::size_t{0}, sky_.size() + 1,
+                      [&](std::size_t i) { fill(i < sky_.size() ? sky_[i] : sun_[0], occluders); });
 }
 
 float Daylight::sky(const glm::vec3& point, const glm::vec3& normal, bool both_sides) const {

@@ -47,6 +47,9 @@ class Daylight {
 public:
     /// `sun`: the unit vector to it. Equal triangles give equal light, with any number of threads.
     Daylight(std::span<const Occluder> occluders, const glm::vec3& sun);
+    /// Nothing is there yet of some millions of triangles between these corners.
+    Daylight(const glm::vec3& lower, const glm::vec3& upper, const glm::vec3& sun);
+    void add(std::span<const Occluder> occluders);
 
     /// Returns the free part of the sky above a surface, 0 to 1. What is lit from both sides takes the light of both.
     float sky(const glm::vec3& point, const glm::vec3& normal, bool both_sides) const;
@@ -55,6 +58,8 @@ public:
     float sun(const glm::vec3& point, int softness) const;
 
 private:
+    Daylight(const glm::vec3& lower, const glm::vec3& upper, const glm::vec3& sun, std::size_t directions);
+
     std::vector<DepthMap> sky_;
     std::vector<DepthMap> sun_;  ///< one
 };

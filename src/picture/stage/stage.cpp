@@ -7,6 +7,7 @@
 #include "picture/light/colour_space.h"
 #include "picture/stage/background_scene.h"
 #include "picture/stage/colouring.h"
+#include "picture/stage/daylight.h"
 #include "picture/stage/field_props.h"
 #include "picture/stage/ground.h"
 #include "picture/stage/legend.h"
@@ -84,6 +85,8 @@ public:
     std::shared_ptr<const FrameGeometry> geometry_ = std::make_shared<FrameGeometry>();
     std::optional<StageSurvey> survey_;  ///< what `settle` was given
     StageSurvey here_;                   ///< survey of the frame that is shown
+    bool is_piece_ = false;              ///< `here_` was given, because only a part of the frame is here
+    std::shared_ptr<const Daylight> piece_daylight_;
     std::optional<Highlight> highlighted_;
 
     struct Part {
@@ -109,6 +112,21 @@ public:
         colouring_ = std::move(colouring);
         set_background();
         if (frame_) rebuild();
+    }
+
+    void show_piece(const RecordedFrame& piece, const StageSurvey& whole, std::shared_ptr<const Daylight> daylight) {
+        here_ = whole;
+        piece_daylight_ = std::move(daylight);
+        is_piece_ = true;
+        show(piece, load(piece));
+        is_piece_ = false;
+        piece_daylight_ = nullptr;
+    }
+
+    std::vector<Occluder> occluders() const {
+        std::vector<Occluder> occluders;
+        for (const Part& part : parts_) occluders.push_back({points_of(part.mesh), corners_of(part.mesh)});
+        return occluders;
     }
 
     void show(const RecordedFrame& frame, std::shared_ptr<const FrameGeometry> geometry) {
@@ -223,8 +241,10 @@ private:
         parts_.clear();
         others_.clear();
         silhouettes_.clear();
-        here_ = {};
-        add_survey(*frame_, *geometry_, here_);
+        if (!is_piece_) {
+            here_ = {};
+            add_survey(*frame_, *geometry_, here_);
+        }
         legend_->legend = {};
         build_meshes();
         if (!style_.light) add_lights_and_colours();
@@ -266,12 +286,9 @@ private:
     void add_lights_and_colours() {
         const glm::vec3 sun = direction_at(style_.sun_azimuth, style_.sun_elevation);
         set_lights(*renderer_, sun);
-        std::optional<Daylight> daylight;
-        if (style_.shading && !is_flat()) {
-            std::vector<Occluder> occluders;
-            for (const Part& part : parts_) occluders.push_back({points_of(part.mesh), corners_of(part.mesh)});
-            daylight.emplace(occluders, sun);
-        }
+        std::optional<Daylight> own;
+        if (style_.shading && !is_flat() && !is_piece_) own.emplace(occluders(), sun);
+        const Daylight* const daylight = own ? &*own : piece_daylight_.get();
         const std::vector<Rgb> colours = colours_of_points();
         // Colours that mean a number are only tinged, or they could not be read.
         const float shade = colouring_->is_natural() ? 1.0F : 0.5F;
@@ -280,13 +297,12 @@ private:
             const auto texture = texture_worn(part.mesh);
             const std::string& file = texture ? geometry_->texture_files[part.mesh.texture] : none;
             dress_actor(*part.actor, part.mesh,
-                        {texture && has_own_colours(file) ? white : colours, daylight ? &*daylight : nullptr, shade,
-                         !is_flat()});
+                        {texture && has_own_colours(file) ? white : colours, daylight, shade, !is_flat()});
             part.actor->SetTexture(texture);
             if (texture && !is_flat()) add_relief(*part.actor, run_->folder(), file);
             renderer_->AddActor(part.actor);
         }
-        if (style_.ground && !is_flat()) add_ground(daylight ? &*daylight : nullptr);
+        if (style_.ground && !is_flat()) add_ground(daylight);
     }
 
     /// Plants in one colour without light, so that they hide what of fields lies behind them.
@@ -334,8 +350,7 @@ private:
 
     /// A flat curve without a colour of its own.
     bool is_line_drawing() const {
-        return colouring_->is_natural() && is_flat() && geometry_->of_points.rgb.empty() &&
-               geometry_->polygons.size() == 0;
+        return colouring_->is_natural() && is_flat() && geometry_->of_points.rgb.empty() && !here_.has_faces;
     }
 
     void add_ground(const Daylight* daylight) {
@@ -461,6 +476,14 @@ void Stage::show(const RecordedFrame& frame, std::shared_ptr<const FrameGeometry
     body_->show(frame, std::move(geometry));
 }
 
+void Stage::show_piece(const RecordedFrame& piece, const StageSurvey& whole, std::shared_ptr<const Daylight> daylight) {
+    body_->show_piece(piece, whole, std::move(daylight));
+}
+
+void Stage::add_occluders(Daylight& daylight) const {
+    daylight.add(body_->occluders());
+}
+
 const RecordedFrame* Stage::shown() const {
     return body_->frame_ ? &*body_->frame_ : nullptr;
 }
@@ -471,7 +494,12 @@ const FrameGeometry& Stage::geometry() const {
 
 StageSurvey Stage::survey(std::span<const RecordedFrame* const> frames) const {
     StageSurvey survey;
-    for (const RecordedFrame* frame : frames) body_->add_survey(*frame, *body_->load(*frame), survey);
+    for (const RecordedFrame* frame : frames) {
+        for (RecordedFrame piece : frame->pieces()) {
+            if (piece.plants != frame->plants) piece.fields.clear();  // the first has them
+            body_->add_survey(piece, *body_->load(piece), survey);
+        }
+    }
     return survey;
 }
 

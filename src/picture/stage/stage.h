@@ -24,6 +24,7 @@ class vtkRenderer;
 
 namespace espalier::picture {
 
+class Daylight;
 struct Legend;
 
 /// What frames have in common, so that neither camera nor colours jump between them.
@@ -32,7 +33,7 @@ struct StageSurvey {
     Outline outline;                             ///< outline of plants and fields
     std::optional<std::array<double, 2>> range;  ///< range of `colour_by`, if it is a number
     std::map<std::string, std::array<double, 2>> field_ranges;
-    bool has_labels = false;
+    bool has_labels = false, has_faces = false;
     std::size_t drawn = 0, pale = 0;  ///< lines and faces whose colour is known, and those hardly seen on white
 
     /// A dark background shows more of the plants' own colours.
@@ -66,6 +67,11 @@ public:
     void show(const RecordedFrame& frame);
     /// The same with plants that were read already, by another thread for instance.
     void show(const RecordedFrame& frame, std::shared_ptr<const FrameGeometry> geometry);
+    /// One file of a frame that has several. `whole`: the survey of all of them; `daylight`: what reaches its plants
+    /// past those of all, null: no shading.
+    void show_piece(const RecordedFrame& piece, const StageSurvey& whole, std::shared_ptr<const Daylight> daylight);
+    /// What is shown hides light from other pieces.
+    void add_occluders(Daylight& daylight) const;
     const RecordedFrame* shown() const;
     /// What is shown; empty before `show`.
     const FrameGeometry& geometry() const;

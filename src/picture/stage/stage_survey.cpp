@@ -11,6 +11,7 @@ void widen(std::array<double, 2>& range, const std::array<double, 2>& by) {
 }
 
 void add_plants(const FrameGeometry& geometry, const std::optional<std::uint32_t>& plant, StageSurvey& survey) {
+    survey.has_faces = survey.has_faces || geometry.polygons.size() > 0;
     for (std::size_t i = 0; i < geometry.points.size(); ++i) {
         const Kind kind = geometry.of_points.kinds[i];
         if (plant && geometry.of_points.plants[i] != *plant) continue;

@@ -38,6 +38,7 @@ public:
         warn();
         const bool records = is_first(options.ranks);
         bool reads_plants = false;
+        if (options.blocks > 0) together(options.ranks, [&] { world_.require_waiting(); });
         together(options.ranks, [&] {
             if (!records) return;
             if (!options.output.empty()) open_timeline();
@@ -45,7 +46,7 @@ public:
             reads_plants =
                 (timeline_ && timeline_->reads_plants()) || (options.recorder && options.recorder->reads_plants());
         });
-        if (options.blocks > 0) together(options.ranks, [&] { keep_on_disk(reads_plants); });
+        if (options.blocks > 0) keep_on_disk();
         if (options.resume) restore();
         if (!any(options.ranks, reads_plants)) world_.skip_geometry();
     }
@@ -89,12 +90,11 @@ private:
         warned_ = all.size();
     }
 
-    void keep_on_disk(bool is_shown) {
-        if (options_.ranks) throw UserError("--blocks is for one process; ranks divide the plants among themselves");
+    void keep_on_disk() {
         const std::size_t in_a_block = (world_.size() + options_.blocks - 1) / options_.blocks;
         const std::filesystem::path folder =
             options_.output.empty() ? std::filesystem::temp_directory_path() : options_.output;
-        world_.keep_on_disk(folder, std::max<std::size_t>(in_a_block, 1) * options_.resident, is_shown);
+        world_.keep_on_disk(folder, std::max<std::size_t>(in_a_block, 1) * options_.resident);
     }
 
     // A mistake in the scene's [timeline] should not leave an empty folder behind.

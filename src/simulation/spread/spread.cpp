@@ -236,7 +236,7 @@ void Spread::gather(std::span<GrowingPlant> plants, const Environment& environme
         get_column(in, values);
         statistics_[number] = environment.statistics(number);
         for (std::size_t i = 0; i < values.size(); ++i) statistics_[number].at(i).value = values[i];
-        if (!sends_plants_) get_plant(in, plants[number], step);
+        if (!sends_plants_) get_plant(in, plants[number - plants.front().number], step);
     });
 }
 
@@ -244,8 +244,9 @@ std::vector<Quantity> Spread::statistics(const Environment& environment, const G
     return plant.is_here ? environment.statistics(plant.number) : statistics_[plant.number];
 }
 
-void Spread::forget(std::span<GrowingPlant> plants) const {
+void Spread::forget(std::span<GrowingPlant> plants) {
     for (GrowingPlant& plant : plants) {
+        statistics_[plant.number] = {};
         if (plant.is_here || (plant.string->empty() && !plant.interpretation->asks())) continue;
         plant.string.for_writing().clear();
         plant.interpretation.for_writing().clear();

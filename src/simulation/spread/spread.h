@@ -45,12 +45,13 @@ public:
     /// Before the exchange: plants of others get what processes must see of them. `first_sees_all`: on the first rank,
     /// whose fields are recorded, processes see all queries.
     void share(std::span<GrowingPlant> plants, Environment& environment, int step, bool first_sees_all);
-    /// After the exchange: the first rank gets all plants and what its processes say of each, for a frame.
+    /// After the exchange: the first rank gets these plants, which follow each other, and what processes say of each,
+    /// for a part of a frame.
     void gather(std::span<GrowingPlant> plants, const Environment& environment, int step);
     /// What the processes of the rank that holds a plant say of it.
     std::vector<Quantity> statistics(const Environment& environment, const GrowingPlant& plant) const;
     /// Forgets what was received of plants that others hold.
-    void forget(std::span<GrowingPlant> plants) const;
+    void forget(std::span<GrowingPlant> plants);
 
     /// Returns, on the first rank, the state of each plant that another holds, by its number.
     std::vector<std::string> states(std::span<const GrowingPlant> plants);

@@ -89,6 +89,21 @@ void MemoryBudget::check_drawn(std::span<const GrowingPlant> plants, int step) {
     require(held_, plants, step);
 }
 
+void MemoryBudget::check_received(std::span<const GrowingPlant> plants, int step) const {
+    std::size_t received = 0;
+    for (const GrowingPlant& plant : plants) {
+        if (plant.is_here) continue;
+        PlantMemory memory;
+        memory.set_drawn(plant.drawn(), /*many_plants=*/true);
+        received += plant.string->content() + memory.total();
+    }
+    if (held_.total() + received <= bytes_) return;
+    throw RunError(
+        fmt::format("step {}: what other ranks send of their plants takes {} MiB, and the plants of this rank "
+                    "{} MiB, but --memory leaves {} MiB for plants",
+                    step, received >> 20, held_.total() >> 20, bytes_ >> 20));
+}
+
 void MemoryBudget::sum(std::span<const GrowingPlant> plants) {
     held_ = {};
     modules_ = 0;

@@ -48,6 +48,8 @@ public:
     // Around interpretation.
     void count_drawn(GrowingPlant& plant, int step, bool many_plants) const;
     void check_drawn(std::span<const GrowingPlant> plants, int step);
+    /// Those plants that other ranks hold must fit beside what is here.
+    void check_received(std::span<const GrowingPlant> plants, int step) const;
 
     std::size_t bytes() const { return bytes_; }
     std::size_t modules() const { return modules_; }

@@ -82,16 +82,15 @@ void write_answers(const ModuleString& answered, const std::vector<QueryPlace>& 
 
 }  // namespace
 
-PlantStore::PlantStore(const std::filesystem::path& folder, std::span<GrowingPlant> plants, std::size_t in_memory,
-                       bool drawn)
-    : drawn_(drawn), places_(plants.size()), waiting_(plants.size()), files_{ScratchFile(folder), ScratchFile(folder)} {
+PlantStore::PlantStore(const std::filesystem::path& folder, std::span<GrowingPlant> plants, std::size_t in_memory)
+    : places_(plants.size()), waiting_(plants.size()), files_{ScratchFile(folder), ScratchFile(folder)} {
     for (std::size_t first = 0; first < plants.size(); first += in_memory) {
         parts_.push_back(plants.subspan(first, std::min(in_memory, plants.size() - first)));
     }
     queries_.resize(parts_.size());
 }
 
-void PlantStore::rest(GrowingPlant& plant) {
+void PlantStore::rest(GrowingPlant& plant, bool drawn) {
     const Interpretation& from = *plant.interpretation;
     ModuleString& string = *plant.string;
     std::vector<QueryPlace> places = places_of(from.queries, string);
@@ -105,7 +104,7 @@ void PlantStore::rest(GrowingPlant& plant) {
     write_turtle_answers(from, string);
     save_string(string, out);
     const std::uint64_t string_size = out.view().size();
-    if (drawn_) {
+    if (drawn) {
         put_column(out, from.queries);
         put_column(out, from.answers);
         put_column(out, from.directions);
@@ -157,7 +156,8 @@ void PlantStore::wake(GrowingPlant& plant) {
 
 void PlantStore::show(GrowingPlant& plant) {
     waiting_[plant.number] = {plant.string.share(), plant.interpretation.share()};
-    fetch(plant, drawn_);
+    const Place& place = places_[plant.number];
+    fetch(plant, /*drawn=*/place.size > place.string);
 }
 
 void PlantStore::put_back(GrowingPlant& plant) {

@@ -21,13 +21,14 @@ namespace espalier::simulation {
 /// for a disk that is full or fails.
 class PlantStore {
 public:
-    /// `folder`: exists, and has room twice for what the plants are. `drawn`: what is drawn of a plant will be shown.
-    PlantStore(const std::filesystem::path& folder, std::span<GrowingPlant> plants, std::size_t in_memory, bool drawn);
+    /// `folder`: exists, and has room twice for what the plants are.
+    PlantStore(const std::filesystem::path& folder, std::span<GrowingPlant> plants, std::size_t in_memory);
 
     const std::vector<std::span<GrowingPlant>>& parts() const { return parts_; }
 
-    /// After its interpretation, or after it was restored: its string waits, and what is drawn of it.
-    void rest(GrowingPlant& plant);
+    /// After its interpretation, or after it was restored: its string waits; if it is `drawn`, what is drawn of it,
+    /// too.
+    void rest(GrowingPlant& plant, bool drawn);
     /// After all plants of a part rest: puts their queries side by side.
     void gather_queries(std::size_t part);
     /// After all plants rest: the room on disk of what they were before is free again.
@@ -36,12 +37,10 @@ public:
     environment::WaitingQueries queries();
     /// Its string is there again, answered.
     void wake(GrowingPlant& plant);
-    /// The same, with what is drawn of it, until put_back(). The string must not change.
+    /// The same, with what is drawn of it if that waits, until put_back(). The string must not change.
     void show(GrowingPlant& plant);
     void put_back(GrowingPlant& plant);
 
-    /// Whether show() has what is drawn.
-    bool shows() const { return drawn_; }
     std::uint64_t bytes() const { return files_[now_].size(); }
 
 private:
@@ -63,7 +62,6 @@ private:
     std::span<const Query> queries_of(std::uint32_t plant);
     void fetch(GrowingPlant& plant, bool drawn);
 
-    const bool drawn_;
     std::vector<std::span<GrowingPlant>> parts_;
     std::vector<Place> places_;     ///< of each plant
     std::vector<Waiting> waiting_;  ///< of plants that are shown

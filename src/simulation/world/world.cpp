@@ -60,6 +60,7 @@ void World::State::grow(Stage stage) {
         rewrite(plants, stage);
         return interpret(plants);
     }
+    is_drawn = reads_plants(ends_at_will || is_at_end());
     for (std::size_t part = 0; part < store->parts().size(); ++part) {
         const std::span<GrowingPlant> some = store->parts()[part];
         wake(some);
@@ -171,7 +172,7 @@ void World::State::wake(std::span<GrowingPlant> some) {
 void World::State::rest(std::span<GrowingPlant> some) {
     const Stopwatch stopwatch(times.interpret);
     for_waiting(some, [&](GrowingPlant& plant) {
-        store->rest(plant);
+        store->rest(plant, is_drawn);
         memory.count_waiting(plant);
     });
     memory.check_drawn(plants, step);
@@ -197,7 +198,10 @@ void World::exchange() {
     if (state_->spread) {
         state_->spread->share(state_->plants, *state_->environment, state_->step, state_->what_is_recorded().fields);
     }
-    state_->all_do([&] { state_->exchange(); });
+    state_->all_do([&] {
+        if (state_->spread) state_->memory.check_received(state_->plants, state_->step);
+        state_->exchange();
+    });
 }
 
 void World::State::exchange() {
@@ -233,15 +237,40 @@ void World::record() {
     if (state_->spread ? state_->what_is_recorded().anything : !state_->recorders.empty()) {
         const Stopwatch stopwatch(state_->times.record);
         const StopRequest::Scope no_request(nullptr);  // a frame is recorded whole
-        if (state_->spread && state_->recorded->plants) state_->gather_frame();
-        state_->all_do([&] { state_->record_parts(); });
+        state_->record();
     }
     state_->end_step();
 }
 
-void World::State::record_parts() {
-    if (recorders.empty()) return;
-    if (!store || !store->shows()) return give_to_recorders(plants, /*begins=*/true, /*ends=*/true);
+bool World::State::reads_plants(bool may_end) const {
+    return std::any_of(recorders.begin(), recorders.end(),
+                       [&](const Recorder* recorder) { return recorder->reads_plants_at(step, may_end); });
+}
+
+void World::State::record() {
+    if (spread && any(&spread->ranks(), reads_plants(is_at_end()))) return record_gathered();
+    all_do([&] {
+        if (store && is_drawn) return record_waiting();
+        give_to_recorders(plants, /*begins=*/true, /*ends=*/true);
+    });
+}
+
+// The first rank gets the plants of the others part by part, so that it holds no more of them than of its own.
+void World::State::record_gathered() {
+    const auto parts = static_cast<std::size_t>(spread->ranks().count());
+    for (std::size_t i = 0; i < parts; ++i) {
+        const std::size_t begin = plants.size() * i / parts, end = plants.size() * (i + 1) / parts;
+        const std::span<GrowingPlant> some = std::span(plants).subspan(begin, end - begin);
+        spread->gather(some, *environment, step);
+        all_do([&] {
+            memory.check_received(some, step);
+            give_to_recorders(some, i == 0, i + 1 == parts);
+        });
+        spread->forget(some);
+    }
+}
+
+void World::State::record_waiting() {
     const auto& parts = store->parts();
     for (std::size_t i = 0; i < parts.size(); ++i) {
         for_waiting(parts[i], [&](GrowingPlant& plant) { store->show(plant); });
@@ -251,6 +280,7 @@ void World::State::record_parts() {
 }
 
 void World::State::give_to_recorders(std::span<const GrowingPlant> some, bool begins, bool ends) {
+    if (recorders.empty()) return;
     Frame frame = frame_of(some);
     frame.begins = begins;
     frame.ends = ends;
@@ -267,13 +297,7 @@ const World::State::Recorded& World::State::what_is_recorded() {
     recorded.emplace();
     recorded->anything = any_recorder([](const Recorder*) { return true; });
     recorded->fields = any_recorder([](const Recorder* recorder) { return !recorder->fields().empty(); });
-    recorded->plants = any_recorder([](const Recorder* recorder) { return recorder->reads_plants(); });
     return *recorded;
-}
-
-void World::State::gather_frame() {
-    spread->gather(plants, *environment, step);
-    if (!spread->is_first()) spread->forget(plants);
 }
 
 Frame World::frame() const {
@@ -303,15 +327,22 @@ void World::skip_geometry() {
     for (GrowingPlant& plant : state.plants) plant.derivation.set_lineage(state.is_seen);
 }
 
-void World::keep_on_disk(const std::filesystem::path& folder, std::size_t in_memory, bool is_shown) {
-    State& state = *state_;
+void World::require_waiting() const {
+    const State& state = *state_;
+    if (state.spread) throw UserError("--blocks is for one process; ranks divide the plants among themselves");
     for (std::size_t process = 0; process < state.environment->size(); ++process) {
         const Spreading spreading = state.environment->spreading(process);
         if (spreading == Spreading::reach || spreading == Spreading::queries) continue;
         throw UserError(fmt::format("process '{}' reads whole plants, so none can wait on disk; run without --blocks",
                                     state.environment->name(process)));
     }
-    state.store = std::make_unique<PlantStore>(folder, state.plants, in_memory, is_shown);
+}
+
+void World::keep_on_disk(const std::filesystem::path& folder, std::size_t in_memory) {
+    State& state = *state_;
+    state.ends_at_will = std::any_of(state.plants.begin(), state.plants.end(),
+                                     [](const GrowingPlant& plant) { return has_order(*plant.description->model); });
+    state.store = std::make_unique<PlantStore>(folder, state.plants, in_memory);
 }
 
 std::size_t World::bytes_of_strings() const {
@@ -387,7 +418,7 @@ void World::State::restore(std::istream& in) {
     for (GrowingPlant& plant : plants) {
         get_state(in, plant, memory.bytes());
         if (!plant.is_here) plant.give_away();
-        if (store) store->rest(plant);
+        if (store) store->rest(plant, /*drawn=*/false);
     }
     if (store) store->turn();
     environment->restore(in);

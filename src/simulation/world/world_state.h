@@ -25,7 +25,7 @@ namespace espalier::simulation {
 struct World::State {
     /// What the recorders of a run read.
     struct Recorded {
-        bool anything = false, fields = false, plants = false;
+        bool anything = false, fields = false;
     };
 
     State(const Scene& described, std::size_t bytes, const std::filesystem::path& files,
@@ -36,7 +36,6 @@ struct World::State {
     void end_step();
     void agree_on_ends();
     const Recorded& what_is_recorded();
-    void gather_frame();
     void restore(std::istream& in);
 
     void share_out_memory();
@@ -53,7 +52,10 @@ struct World::State {
     void rest(std::span<GrowingPlant> some);
     template <class Action>
     void for_waiting(std::span<GrowingPlant> some, const Action& action);
-    void record_parts();
+    bool reads_plants(bool may_end) const;
+    void record();
+    void record_gathered();
+    void record_waiting();
     void give_to_recorders(std::span<const GrowingPlant> some, bool begins, bool ends);
     Frame frame_of(std::span<const GrowingPlant> some) const;
     bool is_at_end() const { return stopped || step >= last_step(); }
@@ -74,6 +76,8 @@ struct World::State {
     std::unique_ptr<Environment> environment;
     std::unique_ptr<Spread> spread;        ///< null: all plants are here
     std::unique_ptr<PlantStore> store;     ///< null: all plants are in memory
+    bool ends_at_will = false;             ///< models may end the run before its time
+    bool is_drawn = false;                 ///< what is drawn of plants waits, too: recorders read this step's plants
     std::vector<std::string> fields_read;  ///< by turtles
     FieldValues fields;                    ///< while turtles walk, and after a restart until then
     bool has_restored_fields = false;

@@ -157,6 +157,13 @@ bool Timeline::reads_plants() const {
                        [](const auto& recorder) { return recorder->reads_plants(); });
 }
 
+bool Timeline::reads_plants_at(int step, bool may_end) const {
+    const bool may_be_due = step >= next_ || step >= last_step_ || may_end;
+    return std::any_of(recorders_.begin(), recorders_.end(), [&](const auto& recorder) {
+        return recorder->reads_plants() && (may_be_due || recorder->sees_every_step());
+    });
+}
+
 void Timeline::require(const Fields& fields) const {
     for (const auto& recorder : recorders_) recorder->require(fields);
 }
