@@ -9,7 +9,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <functional>
+#include <map>
+#include <memory>
+#include <regex>
 #include <set>
 
 using namespace espalier;
@@ -58,7 +62,7 @@ const ProcessType& process_of(const Settings& table) {
 }
 
 /// With what stands before it in the scene, whose fields it may need.
-void make_process(const std::string& key, Settings& table, const Settings& scene) {
+std::unique_ptr<EnvironmentProcess> make_process(const std::string& key, Settings& table, const Settings& scene) {
     EnvironmentContext context{.name = {}, .domain = {}, .seed = 1, .plants = 1};
     const Settings simulation = scene.table("simulation");
     if (simulation.has("domain")) {
@@ -75,20 +79,49 @@ void make_process(const std::string& key, Settings& table, const Settings& scene
         before.push_back(process_of(earlier).make(earlier, context, fields));
     }
     context.name = "probed";
-    process_of(table).make(table, context, fields);
+    return process_of(table).make(table, context, fields);
+}
+
+/// The table that the scene on a process's page has of it.
+std::string table_of_process(const std::string& name, const Settings& scene) {
+    const Settings environment = scene.table("environment");
+    for (const std::string& key : environment.keys()) {
+        if (environment.is_table(key) && environment.table(key).text_or("process", "") == name) return key;
+    }
+    throw std::runtime_error("the scene on the page of " + name + " has no such process");
+}
+
+/// What docs/clusters.md says that ranks send each other for each process.
+std::map<std::string, Spreading> spreadings_on_page() {
+    const std::map<std::string, Spreading> meanings{{"queries whose pyramid", Spreading::reach},
+                                                    {"nothing", Spreading::reach},
+                                                    {"all queries", Spreading::queries},
+                                                    {"all plants", Spreading::plants},
+                                                    {"these cannot be divided", Spreading::refused}};
+    std::map<std::string, Spreading> all;
+    for (const std::string& line : pages::lines_of("docs/clusters.md")) {
+        const std::size_t second = line.find(" | ");
+        if (!line.starts_with("| `") || second == std::string::npos) continue;
+        const auto meaning = std::find_if(meanings.begin(), meanings.end(), [&](const auto& known) {
+            return line.compare(second + 3, known.first.size(), known.first) == 0;
+        });
+        REQUIRE(meaning != meanings.end());
+        static const std::regex name("`([a-z0-9-]+)`");
+        const std::string names = line.substr(0, second);
+        for (std::sregex_iterator at(names.begin(), names.end(), name), end; at != end; ++at) {
+            all[(*at)[1]] = meaning->second;
+        }
+    }
+    return all;
 }
 
 std::vector<Probe> probes() {
     std::vector<Probe> all;
     for (const auto& [name, type] : registered<ProcessType>()) {
         const path scene = scene_of("processes", name);
-        const Settings environment = Settings::read_toml(scene).table("environment");
-        for (const std::string& key : environment.keys()) {
-            if (!environment.is_table(key) || environment.table(key).text_or("process", "") != name) continue;
-            all.push_back({"process", name, type->help, "environment." + key, scene,
-                           [key](Settings& table, const Settings& of) { make_process(key, table, of); }});
-            break;
-        }
+        const std::string key = table_of_process(name, Settings::read_toml(scene));
+        all.push_back({"process", name, type->help, "environment." + key, scene,
+                       [key](Settings& table, const Settings& of) { make_process(key, table, of); }});
     }
     for (const auto& [name, type] : registered<GeometryStageType>()) {
         const path scene = scene_of("stages", name);
@@ -150,6 +183,23 @@ bool is_asked_for(const HelpRow& row, const Json& used) {
 }
 
 }  // namespace
+
+TEST_CASE("the page on clusters says of each process how ranks divide it", "[docs]") {
+    const std::map<std::string, Spreading> said = spreadings_on_page();
+    std::map<std::string, Spreading> done;
+    for (const auto& [name, type] : registered<ProcessType>()) {
+        const Settings scene = Settings::read_toml(scene_of("processes", name));
+        const std::string key = table_of_process(name, scene);
+        Settings table = scene.table("environment").table(key);
+        done[name] = make_process(key, table, scene)->spreading();
+    }
+    for (const auto& [name, spreading] : done) {
+        INFO(name);
+        REQUIRE(said.contains(name));
+        CHECK(said.at(name) == spreading);
+    }
+    CHECK(said.size() == done.size());
+}
 
 TEST_CASE("The defaults that parts tell of are those they use", "[docs]") {
     std::size_t compared = 0;
