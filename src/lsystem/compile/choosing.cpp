@@ -56,6 +56,7 @@ private:
     bool possible(const CompiledProduction& production, std::uint32_t left, std::uint32_t right) const;
     bool in_place(const CompiledProduction& production) const;
     bool certain(const CompiledProduction& production) const;
+    bool keeps(const CompiledProduction& production) const;
     bool is_tested(const CompiledProduction& production) const;
     bool wants_positions() const;
     bool sees_both_at_once() const;
@@ -177,6 +178,12 @@ bool ChoosingCompiler::certain(const CompiledProduction& production) const {
     return in_place(production) && production.before.empty() && !production.has_condition;
 }
 
+/// True if a production of one module puts the same in its place.
+bool ChoosingCompiler::keeps(const CompiledProduction& production) const {
+    return production.length == 1 && production.letters[0] == production.strict[0].letter &&
+           production.parameters == 0 && production.after.empty() && !production.decomposes;
+}
+
 /// True if what decides can be evaluated for many modules at once.
 bool ChoosingCompiler::is_tested(const CompiledProduction& production) const {
     if (!in_place(production) || !production.before.empty()) return false;
@@ -202,7 +209,8 @@ Outcome ChoosingCompiler::outcome(LetterId letter, std::uint32_t left, std::uint
         const std::optional<Outcome> pool = all_certain ? sampled(candidates) : std::nullopt;
         return pool ? *pool : tried(candidates, way);
     }
-    if (certain(rules_.productions[candidates[0]])) return {Outcome::Way::known, choosing_.ranks[candidates[0]]};
+    const CompiledProduction& first = rules_.productions[candidates[0]];
+    if (certain(first)) return {Outcome::Way::known, keeps(first) ? LetterId{0} : choosing_.ranks[candidates[0]]};
     if (all_spelled) return tried(candidates, Outcome::Way::spelled);
     return tried(candidates, way);
 }

@@ -2,74 +2,85 @@
 #include "base/vector_clones.h"
 #include "lsystem/derive/write.h"
 
+#include <array>
+#include <bit>
+#include <cstring>
+
 namespace espalier::lsystem {
 namespace {
 
 /// Where births are read and written.
 struct Births {
-    const ModuleString& from;
+    const Birth* from;
     Birth* to;
     std::ptrdiff_t in_end, out_end;  ///< where blocks may reach
     std::size_t in, out;
-    Siblings* row;  ///< row of the next siblings
-    std::uint32_t number;
+    std::uint32_t row;   ///< row of the next siblings
+    Siblings* siblings;  ///< where that is written
+
+    bool has_room(std::size_t run, std::size_t length) const {
+        return static_cast<std::ptrdiff_t>(in + run + birth_block) <= in_end &&
+               static_cast<std::ptrdiff_t>(out + run + birth_block + whole_blocks(length, birth_block)) <= out_end;
+    }
 };
 
 // What follows is compiled anew for each width of vectors.
 
-/// Those that live on keep their births.
-[[gnu::always_inline]] inline void copy_until(Births& births, std::size_t module) {
-    const std::size_t count = module - births.in;
-    const auto block = static_cast<std::ptrdiff_t>(count + birth_block);
-    const bool has_room = births.in_end - static_cast<std::ptrdiff_t>(births.in) >= block &&
-                          births.out_end - static_cast<std::ptrdiff_t>(births.out) >= block;
-    const Birth* const from = births.from.births.data() + births.in;
-    if (has_room)
-        copy_run<birth_block>(from, births.to + births.out, count);
-    else
-        copy_exactly(from, births.to + births.out, count);
-    births.in = module;
-    births.out += count;
+/// Gives a block of places their row, both as one number: else the compiler writes them half by half.
+[[gnu::always_inline]] inline void bear(const Birth* places, std::uint32_t row, Birth* to) {
+    std::array<std::uint64_t, birth_block> block;
+    static_assert(sizeof block == birth_block * sizeof(Birth));
+    std::memcpy(block.data(), places, sizeof block);
+    for (std::uint64_t& birth : block) birth |= std::bit_cast<std::uint64_t>(Birth{row, 0});
+    std::memcpy(to, block.data(), sizeof block);
 }
 
-[[gnu::always_inline]] inline void bear(Births& births, const Descent& descent, std::size_t length,
-                                        std::uint32_t step) {
-    *births.row++ = {births.from.identity(births.in), step, 0};
+/// The births of modules that live on, and of the successor of those behind them. All of it but the heirs are born now.
+/// In whole blocks: what they hold too much is written over.
+[[gnu::always_inline]] inline void write_in_blocks(const Births& births, std::size_t run, const Plan& plan) {
+    const Birth* const from = births.from + births.in;
     Birth* const to = births.to + births.out;
-    const Birth* const places = descent.births.data();
-    const auto write = [&](std::size_t k) { to[k] = {births.number, places[k].place}; };
-    const auto blocks = static_cast<std::ptrdiff_t>(whole_blocks(length, birth_block));
-    if (births.out_end - static_cast<std::ptrdiff_t>(births.out) >= blocks) {
-        for (std::size_t begin = 0; begin < length; begin += birth_block) {
-            for (std::size_t k = begin; k < begin + birth_block; ++k) write(k);
-        }
-    } else {
-        for (std::size_t k = 0; k < length; ++k) write(k);
+    copy_run<birth_block>(from, to, run);
+    const Descent& descent = plan.production->descent;
+    for (std::size_t k = 0; k < plan.length; k += birth_block) bear(&descent.births[k], births.row, to + run + k);
+    for (std::size_t s = 0; s < plan.width; ++s) to[run + descent.heirs[s]] = from[run + s];
+}
+
+/// The same where blocks would reach too far.
+void write_exactly(const Births& births, std::size_t run, const Plan& plan) {
+    const Birth* const from = births.from + births.in;
+    Birth* const to = births.to + births.out;
+    copy_exactly(from, to, run);
+    const Descent& descent = plan.production->descent;
+    for (std::size_t k = 0; k < plan.length; ++k) to[run + k] = {births.row, descent.births[k].place};
+    for (std::size_t s = 0; s < plan.width; ++s) {
+        if (descent.heirs[s] < plan.length) to[run + descent.heirs[s]] = from[run + s];
     }
-    ++births.number;
 }
 
 ESPALIER_VECTOR_CLONES
-void write_all(Births births, const Plan* plans, std::span<const Replacement> replacements, std::uint32_t step,
-               std::size_t end) {
+void write_all(Births births, const ModuleString& string, std::uint32_t step, const Plan* plans,
+               std::span<const Replacement> replacements, std::size_t end) {
     std::size_t replaced = births.in;  // modules before this one
     for (const Replacement& replacement : replacements) {
-        if (replacement.module < replaced) continue;  // replaced with one before it
+        const std::size_t module = replacement.module;
+        if (module < replaced) continue;  // replaced with one before it
         const Plan& plan = plans[replacement.plan];
-        replaced = std::size_t{replacement.module} + plan.width;
+        replaced = module + plan.width;
         if (!plan.moves) continue;
-        copy_until(births, replacement.module);
-        const Descent& descent = plan.production->descent;
-        if (plan.bears) bear(births, descent, plan.length, step);
-        // All but the heirs are born now; heirs are put over them.
-        for (std::size_t s = 0; s < descent.heirs.size(); ++s) {
-            if (descent.heirs[s] == Descent::none) continue;
-            births.to[births.out + descent.heirs[s]] = births.from.births[births.in + s];
+        const std::size_t run = module - births.in;
+        if (births.has_room(run, plan.length))
+            write_in_blocks(births, run, plan);
+        else
+            write_exactly(births, run, plan);
+        if (plan.bears) {
+            *births.siblings++ = {string.identity(module), step, 0};
+            ++births.row;
         }
-        births.in += plan.width;
-        births.out += plan.length;
+        births.in = replaced;
+        births.out += run + plan.length;
     }
-    copy_until(births, end);
+    copy_exactly(births.from + births.in, births.to + births.out, end - births.in);
 }
 
 }  // namespace
@@ -77,15 +88,15 @@ void write_all(Births births, const Plan* plans, std::span<const Replacement> re
 void write_births(const StepInput& input, const Chunk& chunk, std::span<const Replacement> replacements,
                   ModuleString& to) {
     const std::size_t row = input.from.siblings.size() + chunk.at.siblings;
-    const Births births{input.from,
+    const Births births{input.from.births.data(),
                         to.births.data(),
                         reach(input.from.births, input.from.size(), spare_births, true),
                         reach(to.births, chunk.at.modules + chunk.becomes.modules, spare_births, chunk.is_last),
                         chunk.begin,
                         chunk.at.modules,
-                        chunk.becomes.siblings > 0 ? &to.siblings.added(row) : nullptr,
-                        static_cast<std::uint32_t>(row)};
-    write_all(births, input.system.plans.choices.data(), replacements, input.step, chunk.end);
+                        static_cast<std::uint32_t>(row),
+                        chunk.becomes.siblings > 0 ? &to.siblings.added(row) : nullptr};
+    write_all(births, input.from, input.step, input.system.plans.choices.data(), replacements, chunk.end);
 }
 
 }  // namespace espalier::lsystem
