@@ -2,85 +2,87 @@
 #include "base/vector_clones.h"
 #include "lsystem/derive/write.h"
 
-#include <array>
 #include <bit>
 #include <cstring>
 
 namespace espalier::lsystem {
 namespace {
 
-/// Where births are read and written.
-struct Births {
-    const Birth* from;
-    Birth* to;
-    std::ptrdiff_t in_end, out_end;  ///< where blocks may reach
-    std::size_t in, out;
-    std::uint32_t row;   ///< row of the next siblings
-    Siblings* siblings;  ///< where that is written
-
-    bool has_room(std::size_t run, std::size_t length) const {
-        return static_cast<std::ptrdiff_t>(in + run + birth_block) <= in_end &&
-               static_cast<std::ptrdiff_t>(out + run + birth_block + whole_blocks(length, birth_block)) <= out_end;
-    }
-};
-
 // What follows is compiled anew for each width of vectors.
 
-/// Gives a block of places their row, both as one number: else the compiler writes them half by half.
+/// A block of births, each as one number.
+using EightBirths = std::uint64_t __attribute__((vector_size(64)));
+static_assert(sizeof(EightBirths) == birth_block * sizeof(Birth));
+
+/// Gives a block of places their row.
 [[gnu::always_inline]] inline void bear(const Birth* places, std::uint32_t row, Birth* to) {
-    std::array<std::uint64_t, birth_block> block;
-    static_assert(sizeof block == birth_block * sizeof(Birth));
-    std::memcpy(block.data(), places, sizeof block);
-    for (std::uint64_t& birth : block) birth |= std::bit_cast<std::uint64_t>(Birth{row, 0});
-    std::memcpy(to, block.data(), sizeof block);
+    EightBirths births;
+    std::memcpy(&births, places, sizeof births);
+    births |= std::bit_cast<std::uint64_t>(Birth{row, 0});
+    std::memcpy(to, &births, sizeof births);
 }
 
-/// The births of modules that live on, and of the successor of those behind them. All of it but the heirs are born now.
-/// In whole blocks: what they hold too much is written over.
-[[gnu::always_inline]] inline void write_in_blocks(const Births& births, std::size_t run, const Plan& plan) {
-    const Birth* const from = births.from + births.in;
-    Birth* const to = births.to + births.out;
+/// The births of a run of modules that live on, and of the successor of those behind them. All of it but the heirs are
+/// born now. In whole blocks: what they hold too much is written over.
+[[gnu::always_inline]] inline void write_in_blocks(const Birth* from, Birth* to, std::size_t run, const Plan& plan,
+                                                   std::uint32_t row) {
     copy_run<birth_block>(from, to, run);
+    from += run;
+    to += run;
     const Descent& descent = plan.production->descent;
-    for (std::size_t k = 0; k < plan.length; k += birth_block) bear(&descent.births[k], births.row, to + run + k);
-    for (std::size_t s = 0; s < plan.width; ++s) to[run + descent.heirs[s]] = from[run + s];
+    for (std::size_t k = 0; k < plan.length; k += birth_block) bear(&descent.births[k], row, to + k);
+    for (std::size_t s = 0; s < plan.width; ++s) to[descent.heirs[s]] = from[s];
 }
 
 /// The same where blocks would reach too far.
-void write_exactly(const Births& births, std::size_t run, const Plan& plan) {
-    const Birth* const from = births.from + births.in;
-    Birth* const to = births.to + births.out;
+void write_exactly(const Birth* from, Birth* to, std::size_t run, const Plan& plan, std::uint32_t row) {
     copy_exactly(from, to, run);
+    from += run;
+    to += run;
     const Descent& descent = plan.production->descent;
-    for (std::size_t k = 0; k < plan.length; ++k) to[run + k] = {births.row, descent.births[k].place};
+    for (std::size_t k = 0; k < plan.length; ++k) to[k] = {row, descent.births[k].place};
     for (std::size_t s = 0; s < plan.width; ++s) {
-        if (descent.heirs[s] < plan.length) to[run + descent.heirs[s]] = from[run + s];
+        if (descent.heirs[s] < plan.length) to[descent.heirs[s]] = from[s];
     }
 }
 
+/// Where births and rows of siblings are read and written.
+struct Births {
+    const ModuleString& from;
+    const Birth *in_end, *out_end;  ///< where blocks may reach
+    Birth* out;
+    Siblings* siblings;
+    std::uint32_t row;  ///< number of the next siblings
+    std::uint32_t step;
+};
+
 ESPALIER_VECTOR_CLONES
-void write_all(Births births, const ModuleString& string, std::uint32_t step, const Plan* plans,
-               std::span<const Replacement> replacements, std::size_t end) {
-    std::size_t replaced = births.in;  // modules before this one
+void write_all(const Births& births, const Plan* plans, std::span<const Replacement> replacements, std::size_t begin,
+               std::size_t end) {
+    const Birth *const all = births.from.births.data(), *in = all + begin;
+    Birth* out = births.out;
+    Siblings* siblings = births.siblings;
+    std::uint32_t row = births.row;
     for (const Replacement& replacement : replacements) {
-        const std::size_t module = replacement.module;
-        if (module < replaced) continue;  // replaced with one before it
+        const Birth* const replaced = all + replacement.module;
+        if (replaced < in) continue;  // replaced with one before it
         const Plan& plan = plans[replacement.plan];
-        replaced = module + plan.width;
         if (!plan.moves) continue;
-        const std::size_t run = module - births.in;
-        if (births.has_room(run, plan.length))
-            write_in_blocks(births, run, plan);
+        const auto run = replaced - in;
+        const auto blocks = static_cast<std::ptrdiff_t>(run + birth_block);
+        const auto more = static_cast<std::ptrdiff_t>(whole_blocks(plan.length, birth_block));
+        if (births.in_end - in >= blocks && births.out_end - out >= blocks + more)
+            write_in_blocks(in, out, static_cast<std::size_t>(run), plan, row);
         else
-            write_exactly(births, run, plan);
+            write_exactly(in, out, static_cast<std::size_t>(run), plan, row);
         if (plan.bears) {
-            *births.siblings++ = {string.identity(module), step, 0};
-            ++births.row;
+            *siblings++ = {births.from.identity(replacement.module), births.step, 0};
+            ++row;
         }
-        births.in = replaced;
-        births.out += run + plan.length;
+        in = replaced + plan.width;
+        out += run + plan.length;
     }
-    copy_exactly(births.from + births.in, births.to + births.out, end - births.in);
+    copy_exactly(in, out, static_cast<std::size_t>(all + end - in));
 }
 
 }  // namespace
@@ -88,15 +90,15 @@ void write_all(Births births, const ModuleString& string, std::uint32_t step, co
 void write_births(const StepInput& input, const Chunk& chunk, std::span<const Replacement> replacements,
                   ModuleString& to) {
     const std::size_t row = input.from.siblings.size() + chunk.at.siblings;
-    const Births births{input.from.births.data(),
-                        to.births.data(),
-                        reach(input.from.births, input.from.size(), spare_births, true),
-                        reach(to.births, chunk.at.modules + chunk.becomes.modules, spare_births, chunk.is_last),
-                        chunk.begin,
-                        chunk.at.modules,
+    const std::size_t end = chunk.at.modules + chunk.becomes.modules;
+    const Births births{input.from,
+                        input.from.births.data() + reach(input.from.births, input.from.size(), spare_births, true),
+                        to.births.data() + reach(to.births, end, spare_births, chunk.is_last),
+                        to.births.data() + chunk.at.modules,
+                        chunk.becomes.siblings > 0 ? &to.siblings.added(row) : nullptr,
                         static_cast<std::uint32_t>(row),
-                        chunk.becomes.siblings > 0 ? &to.siblings.added(row) : nullptr};
-    write_all(births, input.from, input.step, input.system.plans.choices.data(), replacements, chunk.end);
+                        input.step};
+    write_all(births, input.system.plans.choices.data(), replacements, chunk.begin, chunk.end);
 }
 
 }  // namespace espalier::lsystem
