@@ -10,16 +10,18 @@ namespace {
 
 // What follows is compiled anew for each width of vectors.
 
-/// A block of births, each as one number.
-using EightBirths = std::uint64_t __attribute__((vector_size(64)));
-static_assert(sizeof(EightBirths) == birth_block * sizeof(Birth));
+/// Births, each as one number.
+using FourBirths = std::uint64_t __attribute__((vector_size(32)));
+static_assert(sizeof(FourBirths) == 4 * sizeof(Birth) && birth_block % 4 == 0);
 
 /// Gives a block of places their row.
 [[gnu::always_inline]] inline void bear(const Birth* places, std::uint32_t row, Birth* to) {
-    EightBirths births;
-    std::memcpy(&births, places, sizeof births);
-    births |= std::bit_cast<std::uint64_t>(Birth{row, 0});
-    std::memcpy(to, &births, sizeof births);
+    for (std::size_t k = 0; k < birth_block; k += 4) {
+        FourBirths births;
+        std::memcpy(&births, places + k, sizeof births);
+        births |= std::bit_cast<std::uint64_t>(Birth{row, 0});
+        std::memcpy(to + k, &births, sizeof births);
+    }
 }
 
 /// The births of a run of modules that live on, and of the successor of those behind them. All of it but the heirs are
