@@ -65,12 +65,10 @@ void write_all(const Births& births, const Plan* plans, std::span<const Replacem
     Birth* out = births.out;
     Siblings* siblings = births.siblings;
     std::uint32_t row = births.row;
-    const Birth* unreplaced = in;  // by what was looked at so far
     for (const Replacement& replacement : replacements) {
         const Birth* const replaced = all + replacement.module;
-        if (replaced < unreplaced) continue;  // replaced with one before it
+        if (replaced < in) continue;  // replaced with one before it
         const Plan& plan = plans[replacement.plan];
-        unreplaced = replaced + plan.width;
         if (!plan.moves) continue;
         const auto run = replaced - in;
         const auto blocks = static_cast<std::ptrdiff_t>(run + birth_block);
@@ -83,7 +81,7 @@ void write_all(const Births& births, const Plan* plans, std::span<const Replacem
             *siblings++ = {births.from.identity(replacement.module), births.step, 0};
             ++row;
         }
-        in = unreplaced;
+        in = replaced + plan.width;
         out += run + plan.length;
     }
     copy_exactly(in, out, static_cast<std::size_t>(all + end - in));
