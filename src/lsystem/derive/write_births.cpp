@@ -51,56 +51,50 @@ void write_exactly(const Birth* from, Birth* to, std::size_t run, const Plan& pl
 /// Where births and rows of siblings are read and written.
 struct Births {
     const ModuleString& from;
-    const Birth *in_end, *out_end;  ///< where blocks may reach
-    Birth* out;
-    Siblings* siblings;
-    std::uint32_t row;  ///< number of the next siblings
+    ModuleString& to;
+    std::size_t in, out;          ///< where the chunk begins
+    std::size_t in_end, out_end;  ///< where blocks may reach
+    std::size_t row;              ///< that of the next siblings
     std::uint32_t step;
 };
 
 ESPALIER_VECTOR_CLONES
-void write_all(const Births& births, const Plan* plans, std::span<const Replacement> replacements, std::size_t begin,
-               std::size_t end) {
-    const Birth *const all = births.from.births.data(), *in = all + begin;
-    Birth* out = births.out;
-    Siblings* siblings = births.siblings;
-    std::uint32_t row = births.row;
+void write_all(const Births& births, const Plan* plans, std::span<const Replacement> replacements, std::size_t end) {
+    const Birth* const from = births.from.births.data();
+    Birth* const to = births.to.births.data();
+    std::size_t in = births.in, out = births.out, row = births.row;
     for (const Replacement& replacement : replacements) {
-        const Birth* const replaced = all + replacement.module;
-        if (replaced < in) continue;  // replaced with one before it
+        const std::size_t module = replacement.module;
+        if (module < in) continue;  // replaced with one before it
         const Plan& plan = plans[replacement.plan];
         if (!plan.moves) continue;
-        const auto run = replaced - in;
-        const auto blocks = static_cast<std::ptrdiff_t>(run + birth_block);
-        const auto more = static_cast<std::ptrdiff_t>(whole_blocks(plan.length, birth_block));
-        if (births.in_end - in >= blocks && births.out_end - out >= blocks + more)
-            write_in_blocks(in, out, static_cast<std::size_t>(run), plan, row);
+        const std::size_t run = module - in;
+        const std::size_t blocks = birth_block + whole_blocks(plan.length, birth_block);
+        if (module + birth_block <= births.in_end && out + run + blocks <= births.out_end)
+            write_in_blocks(from + in, to + out, run, plan, static_cast<std::uint32_t>(row));
         else
-            write_exactly(in, out, static_cast<std::size_t>(run), plan, row);
-        if (plan.bears) {
-            *siblings++ = {births.from.identity(replacement.module), births.step, 0};
-            ++row;
-        }
-        in = replaced + plan.width;
+            write_exactly(from + in, to + out, run, plan, static_cast<std::uint32_t>(row));
+        if (plan.bears) births.to.siblings.added(row++) = {births.from.identity(module), births.step, 0};
+        in = module + plan.width;
         out += run + plan.length;
     }
-    copy_exactly(in, out, static_cast<std::size_t>(all + end - in));
+    copy_exactly(from + in, to + out, end - in);
 }
 
 }  // namespace
 
 void write_births(const StepInput& input, const Chunk& chunk, std::span<const Replacement> replacements,
                   ModuleString& to) {
-    const std::size_t row = input.from.siblings.size() + chunk.at.siblings;
-    const std::size_t end = chunk.at.modules + chunk.becomes.modules;
+    const auto end = [](std::ptrdiff_t reached) { return static_cast<std::size_t>(reached); };
     const Births births{input.from,
-                        input.from.births.data() + reach(input.from.births, input.from.size(), spare_births, true),
-                        to.births.data() + reach(to.births, end, spare_births, chunk.is_last),
-                        to.births.data() + chunk.at.modules,
-                        chunk.becomes.siblings > 0 ? &to.siblings.added(row) : nullptr,
-                        static_cast<std::uint32_t>(row),
+                        to,
+                        chunk.begin,
+                        chunk.at.modules,
+                        end(reach(input.from.births, input.from.size(), spare_births, true)),
+                        end(reach(to.births, chunk.at.modules + chunk.becomes.modules, spare_births, chunk.is_last)),
+                        input.from.siblings.size() + chunk.at.siblings,
                         input.step};
-    write_all(births, input.system.plans.choices.data(), replacements, chunk.begin, chunk.end);
+    write_all(births, input.system.plans.choices.data(), replacements, chunk.end);
 }
 
 }  // namespace espalier::lsystem
