@@ -84,3 +84,26 @@ TEST_CASE("a table of siblings grows behind what it has", "[lsystem]") {
     CHECK(table[500].parent == 500);
     CHECK(fork[499].parent == 499);
 }
+
+TEST_CASE("a module that its production replaces by itself lives on, as one that none replaces", "[lsystem]") {
+    const auto grown = [](bool replaced) {
+        ModelBuilder model;
+        model.system().axiom = model.word("ABABCB");
+        model.rule("", "C", "", "CB");
+        if (replaced) model.rule("A", "B", "", "B");
+        Derivation derivation(model.compiled(), with_lineage());
+        return grow(derivation, 5);
+    };
+    const ModuleString string = grown(true);
+    CHECK(identities_of(string) == identities_of(grown(false)));
+    CHECK(string.step_of_birth(1) == 0);
+    CHECK(string.step_of_birth(5) == 5);
+}
+
+TEST_CASE("a large table of siblings is copied when it is four times as long, not before", "[lsystem]") {
+    constexpr std::size_t rows = 10'000;
+    const SiblingTable table = SiblingTable().grown(rows);
+    const SiblingTable long_one = table.grown(3 * rows);
+    CHECK(&long_one[0] == &table[0]);
+    CHECK(&long_one.grown(1)[0] != &table[0]);
+}

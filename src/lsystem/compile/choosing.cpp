@@ -56,6 +56,7 @@ private:
     bool possible(const CompiledProduction& production, std::uint32_t left, std::uint32_t right) const;
     bool in_place(const CompiledProduction& production) const;
     bool certain(const CompiledProduction& production) const;
+    bool keeps(const CompiledProduction& production) const;
     bool is_tested(const CompiledProduction& production) const;
     bool wants_positions() const;
     bool sees_both_at_once() const;
@@ -143,7 +144,7 @@ void ChoosingCompiler::fill_table() {
 }
 
 void ChoosingCompiler::enter(LetterId letter, const Outcome& outcome) {
-    const bool replaced = outcome.way != Outcome::Way::known || outcome.index > 0;
+    const bool replaced = outcome.way != Outcome::Way::known || outcome.index > system_.plans.first[letter];
     const auto arity = static_cast<std::uint32_t>(system_.source->alphabet.arity(letter));
     choosing_.outcomes.push_back(outcome);
     choosing_.lookups.push_back({arity, replaced});
@@ -177,6 +178,12 @@ bool ChoosingCompiler::certain(const CompiledProduction& production) const {
     return in_place(production) && production.before.empty() && !production.has_condition;
 }
 
+/// True if a production of one module puts the same in its place.
+bool ChoosingCompiler::keeps(const CompiledProduction& production) const {
+    return production.length == 1 && production.letters[0] == production.strict[0].letter &&
+           production.parameters == 0 && production.after.empty() && !production.decomposes;
+}
+
 /// True if what decides can be evaluated for many modules at once.
 bool ChoosingCompiler::is_tested(const CompiledProduction& production) const {
     if (!in_place(production) || !production.before.empty()) return false;
@@ -196,13 +203,15 @@ Outcome ChoosingCompiler::outcome(LetterId letter, std::uint32_t left, std::uint
         all_spelled &= production.context_free() && production.before.empty() && !production.has_condition;
         if (!rules_.stochastic && certain(production)) break;
     }
-    if (candidates.empty()) return {};
+    const std::uint32_t copied = system_.plans.first[letter];
+    if (candidates.empty()) return {Outcome::Way::known, copied};
     const Outcome::Way way = all_tested && !rules_.several_strict ? Outcome::Way::tested : Outcome::Way::matched;
     if (rules_.stochastic) {
         const std::optional<Outcome> pool = all_certain ? sampled(candidates) : std::nullopt;
         return pool ? *pool : tried(candidates, way);
     }
-    if (certain(rules_.productions[candidates[0]])) return {Outcome::Way::known, choosing_.ranks[candidates[0]]};
+    const CompiledProduction& first = rules_.productions[candidates[0]];
+    if (certain(first)) return {Outcome::Way::known, keeps(first) ? copied : copied + choosing_.ranks[candidates[0]]};
     if (all_spelled) return tried(candidates, Outcome::Way::spelled);
     return tried(candidates, way);
 }
@@ -229,12 +238,12 @@ std::optional<Outcome> ChoosingCompiler::sampled(const Productions& candidates) 
         sum += *weight;
         if (*weight > 0) pool.push_back({choosing_.ranks[candidate], *weight});
     }
-    if (pool.size() < 2) return Outcome{Outcome::Way::known, pool.empty() ? 0u : pool[0].choice};
+    const std::uint32_t copied = system_.plans.first[rules_.productions[candidates[0]].strict[0].letter];
+    if (pool.size() < 2) return Outcome{Outcome::Way::known, copied + (pool.empty() ? 0u : pool[0].choice)};
     const auto [at, made] = pools_.try_emplace(candidates, static_cast<std::uint32_t>(choosing_.pools.size()));
     if (made) {
         Pool made_pool;
-        const std::uint32_t first = system_.plans.first[rules_.productions[candidates[0]].strict[0].letter];
-        made_pool.plans.push_back(first + pool[0].choice);
+        made_pool.plans.push_back(copied + pool[0].choice);
         for (std::size_t k = 1; k < pool.size(); ++k) {
             // The smallest random number that selects this production or one behind it.
             std::uint64_t low = 0, high = most_samples;
@@ -246,7 +255,7 @@ std::optional<Outcome> ChoosingCompiler::sampled(const Productions& candidates) 
                     low = middle + 1;
             }
             made_pool.limits.push_back(low);
-            made_pool.plans.push_back(first + pool[k].choice);
+            made_pool.plans.push_back(copied + pool[k].choice);
         }
         choosing_.pools.push_back(std::move(made_pool));
     }

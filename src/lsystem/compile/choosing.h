@@ -15,7 +15,7 @@ class CompiledSystem;
 /// What becomes of a letter between two classes of neighbours.
 struct Outcome {
     enum class Way : std::uint8_t {
-        known,    ///< choice `index` of the letter
+        known,    ///< plan `index` of Plans::choices
         sampled,  ///< one of pool `index`, by a random number
         matched,  ///< by trying the candidates `index`
         spelled,  ///< the first of the candidates `index` whose strict predecessor stands there

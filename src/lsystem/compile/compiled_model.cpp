@@ -262,7 +262,7 @@ CompiledProduction SystemCompiler::compile_production(const Production& producti
 void SystemCompiler::descend(CompiledProduction& production) const {
     Descent& descent = production.descent;
     descent.carries.resize(production.length, Descent::none);
-    descent.heirs.resize(production.strict.size(), Descent::none);
+    descent.heirs.resize(production.strict.size(), static_cast<std::uint32_t>(production.length));
     for (std::uint32_t s = 0; s < production.strict.size(); ++s) {
         const SymbolId symbol = model_->alphabet.symbol_of(production.strict[s].letter);
         for (std::uint32_t k = 0; k < production.length; ++k) {

@@ -39,7 +39,8 @@ struct CompiledPattern {
 struct Descent {
     static constexpr std::uint32_t none = 0xFFFFFFFF;
 
-    std::vector<std::uint32_t> heirs;    ///< for each module that is replaced: the module that carries it on, or `none`
+    /// For each module that is replaced: the module that carries it on, or where the next successor begins.
+    std::vector<std::uint32_t> heirs;
     std::vector<std::uint32_t> carries;  ///< for each module of the successor: which of those it carries on, or `none`
     std::vector<Birth> births;           ///< place of each among those that are born, padded to whole blocks
     std::uint32_t born = 0;

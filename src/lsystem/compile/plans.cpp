@@ -42,7 +42,7 @@ Plan plan_of(const CompiledProduction& production) {
     plan.production = &production;
     plan.kind = kind_of(production);
     plan.bears = production.descent.born > 0;
-    plan.moves = !production.descent.in_place();
+    plan.moves = plan.width > 1 || !production.descent.in_place();
     return plan;
 }
 

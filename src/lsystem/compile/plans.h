@@ -73,7 +73,7 @@ struct alignas(64) Plan {
     std::uint16_t width = 1;  ///< modules that are replaced
     Kind kind = Kind::copy;
     bool bears = false;  ///< some modules of the successor are born
-    bool moves = false;  ///< the successor's modules are not just those that are replaced, each in its place
+    bool moves = false;  ///< the successor is not one module that carries on the one it replaces
     const Lanes* lanes = nullptr;
     const LetterId* letters = nullptr;               ///< all of them, padded to whole blocks
     const CompiledProduction* production = nullptr;  ///< null: the module is copied

@@ -198,19 +198,19 @@ void Chooser::choose(Replacement* first) {
     for (Replacement* replacement = first; replacement != end_; ++replacement) {
         if (replacement->module < replaced_) continue;
         const Outcome& outcome = choosing_.outcomes[replacement->plan];
-        if (outcome.way != Outcome::Way::sampled) {
+        if (outcome.way == Outcome::Way::known) {
+            take(*replacement, outcome.index);
+        } else if (outcome.way == Outcome::Way::sampled) {
+            waiting_[waiting_count_] = {replacement, outcome.index};
+            if (++waiting_count_ == sampled_at_once) sample();
+        } else {
             follow(outcome, *replacement);
-            continue;
         }
-        waiting_[waiting_count_] = {replacement, outcome.index};
-        if (++waiting_count_ == sampled_at_once) sample();
     }
 }
 
 void Chooser::follow(const Outcome& outcome, Replacement& replacement) {
-    if (outcome.way == Outcome::Way::known)
-        take(replacement, plan_of(replacement, outcome.index));
-    else if (outcome.way == Outcome::Way::tested && tests_ == Tests::together)
+    if (outcome.way == Outcome::Way::tested && tests_ == Tests::together)
         test(outcome.index, replacement);
     else if (outcome.way == Outcome::Way::spelled)
         take(replacement, spell(choosing_.trials[outcome.index], replacement));

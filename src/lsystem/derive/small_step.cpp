@@ -72,7 +72,7 @@ void SmallWriter::bear(const Plan& plan, std::size_t module, Birth* births) {
         for (std::size_t k = 0; k < plan.length; ++k) births[k] = {row_, descent.births[k].place};
         ++row_;
     }
-    if (descent.heirs[0] != Descent::none) births[descent.heirs[0]] = from_.births[module];
+    births[descent.heirs[0]] = from_.births[module];
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 namespace espalier::lsystem {
 namespace {
@@ -41,16 +42,25 @@ void count_one_by_one(const StepInput& input, Chunk& chunk) {
     }
 }
 
+/// Adds up parameters, and modules that productions may replace: both in one number.
+void count_candidates(const StepInput& input, Chunk& chunk) {
+    const Lookup* const lookups = input.system.plans.lookups.data();
+    const LetterId* const letters = input.from.letters.data();
+    for (std::size_t begin = chunk.begin; begin < chunk.end; begin += grain) {
+        std::uint64_t sum = 0;
+        for (std::size_t i = begin, end = std::min(begin + grain, chunk.end); i < end; ++i) {
+            sum += std::bit_cast<std::uint64_t>(lookups[letters[i]]);
+        }
+        const auto both = std::bit_cast<Lookup>(sum);
+        chunk.parameters_end += both.arity;
+        chunk.candidates += both.replaced;
+    }
+}
+
 void count(const StepInput& input, Chunk& chunk) {
     const Plans& plans = input.system.plans;
-    if (plans.all_known) return plans.sizes.at_once > 0 ? count_known(input, chunk) : count_one_by_one(input, chunk);
-    const Lookup* const lookups = plans.lookups.data();
-    const LetterId* const letters = input.from.letters.data();
-    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-        const Lookup& letter = lookups[letters[i]];
-        chunk.parameters_end += letter.arity;
-        chunk.candidates += letter.replaced;
-    }
+    if (!plans.all_known) return count_candidates(input, chunk);
+    plans.sizes.at_once > 0 ? count_known(input, chunk) : count_one_by_one(input, chunk);
 }
 
 void require_parameters(const StepInput& input, std::size_t parameters) {

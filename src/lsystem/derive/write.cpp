@@ -47,12 +47,12 @@ private:
     bool has_room(const Cursor& at, std::size_t modules, std::size_t parameters, const Plan& plan) const;
     template <bool Valued>
     bool write_successor(const Plan& plan, const Cursor& at);
-    void write_exactly(const Plan& plan, const Cursor& at);
-    void write_rest_of_chunk(Cursor& at);
+    // Cursors by value: one whose address is known to others would be kept in memory by the loop that moves it.
+    void write_exactly(const Plan& plan, Cursor at);
+    void write_rest_of_chunk(Cursor at);
     void wait(const CompiledProduction& production, const LetterId* in, const double* values, double* to);
     void settle(const CompiledProduction& production);
     void run(const Program& program, const Plan& plan, const Cursor& at);
-    // By value: a cursor whose address is known to others would be kept in memory by the loop that moves it.
     bool write_mixed(const Plan& plan, Cursor at);
     void run_program(const Plan& plan, Cursor at);
     [[noreturn]] void report(const EvaluationError& error, const Cursor& at) const;
@@ -159,13 +159,13 @@ void Writer::write_all() {
     write_rest_of_chunk(at);
 }
 
-void Writer::write_rest_of_chunk(Cursor& at) {
+void Writer::write_rest_of_chunk(const Cursor at) {
     copy_exactly(at.in, at.out, chunk_.end - module_at(at.in));
     copy_exactly(at.values, at.out_values, chunk_.parameters_end - parameter_at(at.values));
 }
 
 /// Nothing behind the successor is written over. Throws RunError if a value is not finite.
-void Writer::write_exactly(const Plan& plan, const Cursor& at) {
+void Writer::write_exactly(const Plan& plan, const Cursor at) {
     copy_exactly(plan.production ? plan.letters : plan.block.data(), at.out, plan.length);
     if (plan.kind == Plan::Kind::copy)
         copy_exactly(at.values, at.out_values, plan.parameters);

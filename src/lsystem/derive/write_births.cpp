@@ -2,90 +2,99 @@
 #include "base/vector_clones.h"
 #include "lsystem/derive/write.h"
 
+#include <bit>
+#include <cstring>
+
 namespace espalier::lsystem {
 namespace {
 
-/// Where births are read and written.
-struct Births {
-    const ModuleString& from;
-    Birth* to;
-    std::ptrdiff_t in_end, out_end;  ///< where blocks may reach
-    std::size_t in, out;
-    Siblings* row;  ///< row of the next siblings
-    std::uint32_t number;
-};
-
 // What follows is compiled anew for each width of vectors.
 
-/// Those that live on keep their births.
-[[gnu::always_inline]] inline void copy_until(Births& births, std::size_t module) {
-    const std::size_t count = module - births.in;
-    const auto block = static_cast<std::ptrdiff_t>(count + birth_block);
-    const bool has_room = births.in_end - static_cast<std::ptrdiff_t>(births.in) >= block &&
-                          births.out_end - static_cast<std::ptrdiff_t>(births.out) >= block;
-    const Birth* const from = births.from.births.data() + births.in;
-    if (has_room)
-        copy_run<birth_block>(from, births.to + births.out, count);
-    else
-        copy_exactly(from, births.to + births.out, count);
-    births.in = module;
-    births.out += count;
+/// Births, each as one number.
+using FourBirths = std::uint64_t __attribute__((vector_size(32)));
+static_assert(sizeof(FourBirths) == 4 * sizeof(Birth) && birth_block % 4 == 0);
+
+/// Gives a block of places their row.
+[[gnu::always_inline]] inline void bear(const Birth* places, std::uint32_t row, Birth* to) {
+    for (std::size_t k = 0; k < birth_block; k += 4) {
+        FourBirths births;
+        std::memcpy(&births, places + k, sizeof births);
+        births |= std::bit_cast<std::uint64_t>(Birth{row, 0});
+        std::memcpy(to + k, &births, sizeof births);
+    }
 }
 
-[[gnu::always_inline]] inline void bear(Births& births, const Descent& descent, std::size_t length,
-                                        std::uint32_t step) {
-    *births.row++ = {births.from.identity(births.in), step, 0};
-    Birth* const to = births.to + births.out;
-    const Birth* const places = descent.births.data();
-    const auto write = [&](std::size_t k) { to[k] = {births.number, places[k].place}; };
-    const auto blocks = static_cast<std::ptrdiff_t>(whole_blocks(length, birth_block));
-    if (births.out_end - static_cast<std::ptrdiff_t>(births.out) >= blocks) {
-        for (std::size_t begin = 0; begin < length; begin += birth_block) {
-            for (std::size_t k = begin; k < begin + birth_block; ++k) write(k);
-        }
-    } else {
-        for (std::size_t k = 0; k < length; ++k) write(k);
-    }
-    ++births.number;
+/// The births of a run of modules that live on, and of the successor of those behind them. All of it but the heirs are
+/// born now. In whole blocks: what they hold too much is written over.
+[[gnu::always_inline]] inline void write_in_blocks(const Birth* from, Birth* to, std::size_t run, const Plan& plan,
+                                                   std::uint32_t row) {
+    copy_run<birth_block>(from, to, run);
+    from += run;
+    to += run;
+    const Descent& descent = plan.production->descent;
+    for (std::size_t k = 0; k < plan.length; k += birth_block) bear(&descent.births[k], row, to + k);
+    for (std::size_t s = 0; s < plan.width; ++s) to[descent.heirs[s]] = from[s];
 }
+
+/// The same where blocks would reach too far.
+void write_exactly(const Birth* from, Birth* to, std::size_t run, const Plan& plan, std::uint32_t row) {
+    copy_exactly(from, to, run);
+    from += run;
+    to += run;
+    const Descent& descent = plan.production->descent;
+    for (std::size_t k = 0; k < plan.length; ++k) to[k] = {row, descent.births[k].place};
+    for (std::size_t s = 0; s < plan.width; ++s) {
+        if (descent.heirs[s] < plan.length) to[descent.heirs[s]] = from[s];
+    }
+}
+
+/// Where births and rows of siblings are read and written.
+struct Births {
+    const ModuleString& from;
+    ModuleString& to;
+    std::size_t in, out;          ///< where the chunk begins
+    std::size_t in_end, out_end;  ///< where blocks may reach
+    std::size_t row;              ///< that of the next siblings
+    std::uint32_t step;
+};
 
 ESPALIER_VECTOR_CLONES
-void write_all(Births births, const Plan* plans, std::span<const Replacement> replacements, std::uint32_t step,
-               std::size_t end) {
-    std::size_t replaced = births.in;  // modules before this one
+void write_all(const Births& births, const Plan* plans, std::span<const Replacement> replacements, std::size_t end) {
+    const Birth* const from = births.from.births.data();
+    Birth* const to = births.to.births.data();
+    std::size_t in = births.in, out = births.out, row = births.row;
     for (const Replacement& replacement : replacements) {
-        if (replacement.module < replaced) continue;  // replaced with one before it
+        const std::size_t module = replacement.module;
+        if (module < in) continue;  // replaced with one before it
         const Plan& plan = plans[replacement.plan];
-        replaced = std::size_t{replacement.module} + plan.width;
         if (!plan.moves) continue;
-        copy_until(births, replacement.module);
-        const Descent& descent = plan.production->descent;
-        if (plan.bears) bear(births, descent, plan.length, step);
-        // All but the heirs are born now; heirs are put over them.
-        for (std::size_t s = 0; s < descent.heirs.size(); ++s) {
-            if (descent.heirs[s] == Descent::none) continue;
-            births.to[births.out + descent.heirs[s]] = births.from.births[births.in + s];
-        }
-        births.in += plan.width;
-        births.out += plan.length;
+        const std::size_t run = module - in;
+        const std::size_t blocks = birth_block + whole_blocks(plan.length, birth_block);
+        if (module + birth_block <= births.in_end && out + run + blocks <= births.out_end)
+            write_in_blocks(from + in, to + out, run, plan, static_cast<std::uint32_t>(row));
+        else
+            write_exactly(from + in, to + out, run, plan, static_cast<std::uint32_t>(row));
+        if (plan.bears) births.to.siblings.added(row++) = {births.from.identity(module), births.step, 0};
+        in = module + plan.width;
+        out += run + plan.length;
     }
-    copy_until(births, end);
+    copy_exactly(from + in, to + out, end - in);
 }
 
 }  // namespace
 
 void write_births(const StepInput& input, const Chunk& chunk, std::span<const Replacement> replacements,
                   ModuleString& to) {
-    const std::size_t row = input.from.siblings.size() + chunk.at.siblings;
+    const auto end = [](std::ptrdiff_t reached) { return static_cast<std::size_t>(reached); };
     const Births births{input.from,
-                        to.births.data(),
-                        reach(input.from.births, input.from.size(), spare_births, true),
-                        reach(to.births, chunk.at.modules + chunk.becomes.modules, spare_births, chunk.is_last),
+                        to,
                         chunk.begin,
                         chunk.at.modules,
-                        chunk.becomes.siblings > 0 ? &to.siblings.added(row) : nullptr,
-                        static_cast<std::uint32_t>(row)};
-    write_all(births, input.system.plans.choices.data(), replacements, input.step, chunk.end);
+                        end(reach(input.from.births, input.from.size(), spare_births, true)),
+                        end(reach(to.births, chunk.at.modules + chunk.becomes.modules, spare_births, chunk.is_last)),
+                        input.from.siblings.size() + chunk.at.siblings,
+                        input.step};
+    write_all(births, input.system.plans.choices.data(), replacements, chunk.end);
 }
 
 }  // namespace espalier::lsystem

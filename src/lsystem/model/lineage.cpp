@@ -3,6 +3,17 @@
 #include <algorithm>
 
 namespace espalier::lsystem {
+namespace {
+
+/// Rows that a table of so many has room for: where memory costs nothing before it is touched, as that of small blocks
+/// does, copies are what is spared.
+std::size_t room_for(std::size_t rows) {
+    constexpr std::size_t few = 4096, many = 1'500'000;
+    const std::size_t grown = rows + rows / 2;
+    return rows < few ? grown : std::max(grown, std::min(4 * rows, many));
+}
+
+}  // namespace
 
 SiblingTable SiblingTable::grown(std::size_t more) const {
     SiblingTable table = *this;
@@ -11,7 +22,7 @@ SiblingTable SiblingTable::grown(std::size_t more) const {
     // If another string has grown behind this one already, its rows are not to be written over.
     const bool has_room = memory_ && memory_->rows.size() - size_ >= more;
     if (more == 0 || (has_room && memory_->used.compare_exchange_strong(used, table.size_))) return table;
-    table.memory_ = std::make_shared<Memory>(table.size_ + table.size_ / 2);
+    table.memory_ = std::make_shared<Memory>(room_for(table.size_));
     table.memory_->used = table.size_;
     if (size_ > 0) std::copy_n(memory_->rows.data(), size_, table.memory_->rows.data());
     return table;
