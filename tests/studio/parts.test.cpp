@@ -127,12 +127,36 @@ TEST_CASE("steps that do not fit into memory are the same from a file", "[studio
     CHECK(std::filesystem::exists(folder.path() / "b"));
     for (int step = 0; step <= 6; ++step) {
         CHECK(roomy.packet(step) == tight.packet(step));
+        const LimbAxes here = roomy.limb_axes(step), there = tight.limb_axes(step);
+        CHECK(here.geometry.points == there.geometry.points);
+        CHECK(here.geometry.lines.offsets == there.geometry.lines.offsets);
+        CHECK(here.modules == there.modules);
         const espalier::ModuleString a = roomy.string(step, 0), b = tight.string(step, 0);
         CHECK(a.letters == b.letters);
         CHECK(a.parameters == b.parameters);
         CHECK(a.identity(a.size() - 1) == b.identity(b.size() - 1));
     }
     CHECK_FALSE(tight.has(7));
+}
+
+TEST_CASE("an axis goes on behind its branches, until it begins anew elsewhere", "[studio]") {
+    const TemporaryFolder folder;
+    espalier::Scene scene;
+    for (const char* axiom : {"F(1)[+F(1)F(1)]F(1)f(1)F(1)", "F(2)"}) {
+        scene.plants.push_back(espalier::plant_of_text(std::string("lsystem: 1\nderivation length: 0\naxiom: ") +
+                                                       axiom + "\nendlsystem\n"));
+    }
+    espalier::World world(scene);
+    KeptSteps steps(1, folder.path() / "steps");
+    world.start();
+    steps.add(world.frame());
+    const LimbAxes axes = steps.limb_axes(0);
+    // The trunk, its branch, the axis behind the gap, and the second plant.
+    CHECK(axes.geometry.lines.offsets == espalier::Column<std::int32_t>{0, 3, 6, 8, 10});
+    CHECK(axes.geometry.of_cells.plants == espalier::Column<std::uint32_t>{0, 0, 0, 1});
+    CHECK(axes.geometry.of_cells.orders == espalier::Column<std::uint16_t>{0, 1, 0, 0});
+    CHECK(axes.geometry.points[7].y == 4);
+    CHECK(axes.modules == std::vector<std::uint32_t>{0, 0, 6, 3, 3, 4, 8, 8, 9, 9});
 }
 
 TEST_CASE("the page is part of the program", "[studio]") {

@@ -115,17 +115,6 @@ SurfaceMeshes* OrganSource::surfaces(const std::shared_ptr<const Shapes>& shapes
     return &surfaces_.try_emplace(shapes, shapes).first->second;
 }
 
-std::vector<std::uint32_t> by_axis(std::span<const Internode> internodes) {
-    std::uint32_t axes = 0;
-    for (const Internode& internode : internodes) axes = std::max(axes, internode.axis + 1);
-    std::vector<std::uint32_t> next(std::size_t{axes} + 1, 0);
-    for (const Internode& internode : internodes) ++next[std::size_t{internode.axis} + 1];
-    for (std::size_t axis = 1; axis < next.size(); ++axis) next[axis] += next[axis - 1];
-    std::vector<std::uint32_t> sorted(internodes.size());
-    for (std::uint32_t i = 0; i < internodes.size(); ++i) sorted[next[internodes[i].axis]++] = i;
-    return sorted;
-}
-
 void add_axes(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant) {
     std::optional<Owner> line;
     AcrossLine across;

@@ -142,7 +142,17 @@ private:
 };
 
 /// The internodes' numbers, axis after axis, in the turtle's order within each.
-std::vector<std::uint32_t> by_axis(std::span<const Internode> internodes);
+template <class Drawn>
+std::vector<std::uint32_t> by_axis(std::span<const Drawn> internodes) {
+    std::uint32_t axes = 0;
+    for (const Drawn& internode : internodes) axes = std::max(axes, internode.axis + 1);
+    std::vector<std::uint32_t> next(std::size_t{axes} + 1, 0);
+    for (const Drawn& internode : internodes) ++next[std::size_t{internode.axis} + 1];
+    for (std::size_t axis = 1; axis < next.size(); ++axis) next[axis] += next[axis - 1];
+    std::vector<std::uint32_t> sorted(internodes.size());
+    for (std::uint32_t i = 0; i < internodes.size(); ++i) sorted[next[internodes[i].axis]++] = i;
+    return sorted;
+}
 
 /// Calls visit(number, begins) for each internode, by axis; `begins` says that it is the first of a line, because its
 /// axis begins or because it does not begin where the one before has ended.

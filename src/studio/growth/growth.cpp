@@ -101,7 +101,8 @@ struct Growth::Work {
 };
 
 Growth::Growth(GrowthOrder order, GrowthListener& listener, Workers& workers)
-    : order_(std::move(order)),
+    : before_(std::move(order.before)),
+      order_(std::move(order)),
       listener_(listener),
       printed_([this](std::string text) {
           if (!cancelled_) listener_.printed(number(), std::move(text));
@@ -214,7 +215,8 @@ void Growth::begin(Work& work, GrowthStart start) {
         steps_->expect(world.scene());
     }
     if (may_extend_) world.set_steps(most_steps);
-    if (work.origin && order_.before) work.derived = steps_->inherit(*order_.before, *work.origin);
+    const std::shared_ptr<const KeptSteps> before = std::move(before_);
+    if (work.origin && before) work.derived = steps_->inherit(*before, *work.origin);
     {
         const std::lock_guard lock(mutex_);
         scene_ = std::make_shared<const Scene>(world.scene());

@@ -103,6 +103,7 @@ private:
     void note_grown(Work& work, std::size_t internodes, std::string statistics);
     void wait_for_more(const Work& work);
 
+    std::shared_ptr<const KeptSteps> before_;  ///< until it has begun
     const GrowthOrder order_;
     GrowthListener& listener_;
     PrintedText printed_;

@@ -78,7 +78,7 @@ void KeptSteps::file_oldest() {
         std::find_if(steps_.begin(), steps_.end(), [](const auto& entry) { return entry.second.is_in_memory(); });
     Step& step = oldest->second;
     in_memory_ -= step.bytes();
-    if (step.drawing) step.filed_drawing = {spool_->add(step.drawing->packet), spool_->add(step.drawing->axes)};
+    if (step.drawing) step.filed_drawing = {spool_->add(step.drawing->packet), spool_->add(step.drawing->axes.bytes())};
     step.drawing.reset();
     if (!step.strings->is_filed()) step.strings = step.strings->filed(spool_);
     in_memory_ += step.bytes();
@@ -102,8 +102,8 @@ std::string KeptSteps::packet(int number) const {
 
 LimbAxes KeptSteps::limb_axes(int number) const {
     const Step kept = step(number);
-    const KeptAxes axes(kept.drawing ? kept.drawing->axes : spool_->text(kept.filed_drawing.value().axes));
-    return axes.axes(textures());
+    if (kept.drawing) return kept.drawing->axes.axes(textures());
+    return KeptAxes(spool_->text(kept.filed_drawing.value().axes)).axes(textures());
 }
 
 std::vector<std::string> KeptSteps::shapes() const {

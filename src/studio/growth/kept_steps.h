@@ -61,7 +61,8 @@ public:
 
 private:
     struct Drawing {
-        std::string packet, axes;  ///< bytes of each
+        std::string packet;
+        KeptAxes axes;
     };
     struct FiledDrawing {
         Spool::Place packet, axes;

@@ -22,35 +22,36 @@ struct LimbAxes {
     std::vector<std::uint32_t> modules;
 };
 
-/// What a step keeps of its axes until a page asks for limbs.
+/// What a step keeps of its axes until a page asks for limbs: the internodes as they were drawn. Finding the lines
+/// waits until then, too.
 class KeptAxes {
 public:
-    using Rgb = std::array<std::uint8_t, 3>;
-
-    struct Look {
-        std::function<Rgb(std::uint32_t plant, std::uint16_t colour)> colour;
-        std::function<std::uint32_t(std::uint32_t plant, std::uint16_t texture)> texture;  ///< as pages count them
+    struct Internode {
+        glm::vec3 base, tip;
+        float base_radius, tip_radius;
+        std::uint32_t module;  ///< counted through the plants
+        std::uint32_t axis;
+        std::uint16_t order, texture;  ///< texture as pages count them
+        std::array<std::uint8_t, 3> rgb;
+        bool goes_on;  ///< begins where the one before it on its axis has ended
     };
-    KeptAxes(const timeline::Frame& frame, const Look& look);
+
+    KeptAxes() = default;
     explicit KeptAxes(std::string_view bytes);
 
+    /// To be filled in the order of drawing.
+    void reserve(std::size_t internodes) { internodes_.reserve(internodes); }
+    void add(const Internode& internode) { internodes_.push_back(internode); }
+    /// What was added since the plant before is a plant's.
+    void end_plant() { ends_.push_back(static_cast<std::uint32_t>(internodes_.size())); }
+
     std::string bytes() const;
+    std::size_t size() const { return internodes_.size() * sizeof(Internode) + ends_.size() * sizeof(ends_[0]); }
     LimbAxes axes(const std::vector<BrowserTexture>& textures) const;
 
 private:
-    template <class Self, class Visit>
-    static void for_columns(Self& self, const Visit& visit);
-
-    // Of the points.
-    Column<glm::vec3> points_;
-    Column<float> radii_;
-    Column<std::uint32_t> modules_;
-    Column<std::uint16_t> orders_;
-    Column<Rgb> rgb_;
-    // Of the lines, whose points follow each other.
-    Column<std::uint32_t> plants_;
-    Column<std::int32_t> ends_;
-    Column<std::uint16_t> textures_;
+    Column<Internode> internodes_;
+    std::vector<std::uint32_t> ends_;  ///< of the plants
 };
 
 }  // namespace espalier::studio

@@ -3,7 +3,6 @@
 #include "espalier/geometry/surface.h"
 
 #include "geometry/drawn/plant_mesh.h"
-#include "studio/packets/limb_axes.h"
 #include "studio/packets/message_bytes.h"
 #include "studio/packets/packet_parts.h"
 
@@ -52,6 +51,21 @@ Extent extent_of(const timeline::Frame& frame) {
     return extent;
 }
 
+/// Where the axes of a plant have ended while its internodes are added.
+class AxisEnds {
+public:
+    explicit AxisEnds(std::uint32_t axes) : last_(axes, nullptr) {}
+
+    /// False if it is the first of a line. It stays where it is.
+    bool go_on(const Internode& internode) {
+        const Internode* const before = std::exchange(last_[internode.axis], &internode);
+        return before && before->tip == internode.base;
+    }
+
+private:
+    std::vector<const Internode*> last_;  ///< of each axis; null: none
+};
+
 std::array<float, 12> matrix(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z, const glm::dvec3& at) {
     std::array<float, 12> rows;
     for (int row = 0; row < 3; ++row) {
@@ -81,6 +95,12 @@ public:
 
     Packet write() {
         const std::vector<std::uint32_t> firsts = first_modules(frame_);
+        std::size_t internodes = 0;
+        for (const timeline::PlantFrame& plant : frame_.plants) {
+            internodes += plant.interpretation->geometry.internodes.size();
+        }
+        parts_.internodes.reserve(internodes);
+        axes_.reserve(internodes);
         std::vector<Colours> colours;
         for (const timeline::PlantFrame& plant : frame_.plants) colours.emplace_back(plant.palette);
         mesh_.begin();
@@ -95,34 +115,29 @@ public:
         add_mesh(firsts, colours);
         parts_.first_modules.assign(firsts.begin(), firsts.end() - 1);
         parts_.triangles.sort();
-        return {shapes_message(), parts_.bytes(writer_.growth_, frame_.step), axes(colours).bytes(),
+        return {shapes_message(), parts_.bytes(writer_.growth_, frame_.step), std::move(axes_),
                 parts_.internodes.size()};
     }
 
 private:
-    KeptAxes axes(std::vector<Colours>& colours) {
-        const auto colour = [&](std::uint32_t plant, std::uint16_t index) {
-            const Rgba rgba = colours[plant].of(index, true);
-            return KeptAxes::Rgb{rgba[0], rgba[1], rgba[2]};
-        };
-        const auto texture = [&](std::uint32_t plant, std::uint16_t number) {
-            return picture(frame_.plants[plant].interpretation->geometry, number);
-        };
-        return KeptAxes(frame_, {colour, texture});
-    }
-
     void add_internodes(const PlantGeometry& geometry, std::uint32_t first, Colours& colours) {
-        parts_.internodes.reserve(parts_.internodes.size() + geometry.internodes.size());
-        for (const Internode& internode : geometry.internodes) {
+        const Extent extent = parts_.extent;
+        AxisEnds ends(geometry.axes);
+        for (std::size_t i = 0; i < geometry.internodes.size(); ++i) {
+            const Internode& internode = geometry.internodes[i];
             const Rgba colour = colours.of(internode.colour, true);
-            parts_.internodes.push_back({parts_.extent.parts(internode.base),
-                                         parts_.extent.parts(internode.tip),
-                                         parts_.extent.part_of_radius(internode.base_radius),
-                                         parts_.extent.part_of_radius(internode.tip_radius),
-                                         {colour[0], colour[1], colour[2]},
-                                         static_cast<std::uint8_t>(std::min<int>(internode.order, 255)),
-                                         first + internode.module});
+            const std::array<std::uint8_t, 3> rgb{colour[0], colour[1], colour[2]};
+            const std::uint32_t module = first + internode.module;
+            const std::uint16_t texture = i < geometry.textures.size() ? picture(geometry, geometry.textures[i]) : 0;
+            parts_.internodes.push_back({extent.parts(internode.base), extent.parts(internode.tip),
+                                         extent.part_of_radius(internode.base_radius),
+                                         extent.part_of_radius(internode.tip_radius), rgb,
+                                         static_cast<std::uint8_t>(std::min<int>(internode.order, 255)), module});
+            axes_.add({internode.base, internode.tip, static_cast<float>(internode.base_radius),
+                       static_cast<float>(internode.tip_radius), module, internode.axis, internode.order, texture, rgb,
+                       ends.go_on(internode)});
         }
+        axes_.end_plant();
         if (geometry.textures.empty()) return;
         parts_.limb_textures.resize(parts_.internodes.size() - geometry.internodes.size());
         for (const std::uint16_t texture : geometry.textures) {
@@ -266,6 +281,7 @@ private:
     PacketWriter& writer_;
     const timeline::Frame& frame_;
     PacketParts parts_;
+    KeptAxes axes_;
     geometry::PlantMesh mesh_;
     OrganMeshes plain_;
     std::vector<NewShape> new_shapes_;

@@ -3,6 +3,7 @@
 
 #include "espalier/timeline/frame.h"
 
+#include "studio/packets/limb_axes.h"
 #include "studio/packets/textures.h"
 
 #include <cstdint>
@@ -23,7 +24,7 @@ std::vector<std::uint32_t> first_modules(const timeline::Frame& frame);
 struct Packet {
     std::string shapes;  ///< the message with the surfaces that this packet is the first to use; may be empty
     std::string bytes;
-    std::string axes;  ///< bytes of KeptAxes
+    KeptAxes axes;
     std::size_t internodes = 0;
 };
 

@@ -55,25 +55,6 @@ Point point_of(const glm::dvec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-void Extent::add(const glm::dvec3& base, const glm::dvec3& tip, double base_radius, double tip_radius) {
-    box.add(base);
-    box.add(tip);
-    radius = std::max({radius, base_radius, tip_radius});
-}
-
-std::array<std::uint16_t, 3> Extent::parts(const glm::dvec3& point) const {
-    std::array<std::uint16_t, 3> result;
-    for (int k = 0; k < 3; ++k) {
-        const double size = box.upper[k] - box.lower[k];
-        result[static_cast<std::size_t>(k)] = part(size > 0 ? (point[k] - box.lower[k]) / size : 0);
-    }
-    return result;
-}
-
-std::uint16_t Extent::part(double share) {
-    return static_cast<std::uint16_t>(65535 * std::clamp(share, 0.0, 1.0) + 0.5);
-}
-
 std::uint32_t Triangles::add(const SurfaceVertex& vertex, Rgba colour, std::uint32_t module) {
     points.push_back(point_of(vertex.position));
     normals.push_back(normal_of(vertex.normal));
@@ -115,7 +96,10 @@ std::string PacketParts::bytes(std::uint32_t growth, int step) const {
     const auto count = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
     const Box box = extent.box.empty() ? Box{glm::dvec3(0), glm::dvec3(0)} : extent.box;
     MessageBytes out("ESP1");
-    out.reserve(128 + 24 * internodes.size() + 28 * triangles.points.size() + 4 * triangles.indices.size());
+    std::size_t in_groups = 0;
+    for (const auto& [shape, group] : groups) in_groups += 8 + 56 * group.places.size();
+    out.reserve(128 + 4 * first_modules.size() + 24 * internodes.size() + 28 * triangles.points.size() +
+                4 * triangles.indices.size() + in_groups);
     out.put(growth, static_cast<std::int32_t>(step), count(first_modules), count(internodes), count(triangles.points),
             count(triangles.indices), count(groups), point_of(box.lower), point_of(box.upper),
             static_cast<float>(extent.radius));

@@ -4,8 +4,10 @@
 #include "espalier/geometry/plant_geometry.h"
 #include "espalier/geometry/surface.h"
 
+#include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -27,12 +29,24 @@ struct Extent {
     Box box;
     double radius = 0;
 
-    void add(const glm::dvec3& base, const glm::dvec3& tip, double base_radius, double tip_radius);
-    std::array<std::uint16_t, 3> parts(const glm::dvec3& point) const;
+    void add(const glm::dvec3& base, const glm::dvec3& tip, double base_radius, double tip_radius) {
+        box.lower = glm::min(box.lower, glm::min(base, tip));
+        box.upper = glm::max(box.upper, glm::max(base, tip));
+        radius = std::max({radius, base_radius, tip_radius});
+    }
+    std::array<std::uint16_t, 3> parts(const glm::dvec3& point) const {
+        const auto part_along = [&](int k) {
+            const double size = box.upper[k] - box.lower[k];
+            return part(size > 0 ? (point[k] - box.lower[k]) / size : 0);
+        };
+        return {part_along(0), part_along(1), part_along(2)};
+    }
     std::uint16_t part_of_radius(double value) const { return part(radius > 0 ? value / radius : 0); }
 
 private:
-    static std::uint16_t part(double share);
+    static std::uint16_t part(double share) {
+        return static_cast<std::uint16_t>(65535 * std::clamp(share, 0.0, 1.0) + 0.5);
+    }
 };
 
 struct InternodeBytes {

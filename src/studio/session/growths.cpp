@@ -48,7 +48,6 @@ void Growths::begin_next() {
     if (document_.history().is_transient() && latest && is_busy_ && latest->seconds() < least_growth) return;
     waits_ = false;
     is_busy_ = true;
-    retired_.forget_ended();
     retired_.add(std::move(next_));
     GrowthOrder order = next_order();
     if (is_run(document_.path())) {
@@ -147,6 +146,7 @@ void Growths::note_grown(std::uint32_t growth, const GrownStep& step) {
     }
     show_step(step);
     begin_next();
+    if (step.is_end) retired_.forget_ended();  // which takes its time: nothing waits for it now
 }
 
 // To the pages that look at it, or follow the growth.

@@ -102,8 +102,8 @@ void OpenDocument::note_changed(const fs::path& before, std::optional<int> follo
     }
     is_unkept_ = true;
     is_told_ = false;
-    if (!is_other) broadcast();
     if (changed_) changed_({is_other, follow_from});
+    if (!is_other) broadcast();  // what grows need not wait for it
 }
 
 void OpenDocument::note_started(const Opened& grown, const GrowthStart& start) {
