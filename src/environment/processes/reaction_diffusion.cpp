@@ -4,9 +4,9 @@
 #include "espalier/base/math.h"
 #include "espalier/base/stop.h"
 #include "espalier/environment/environment_process.h"
-#include "espalier/geometry/openvdb_grid.h"
 
 #include "base/bytes.h"
+#include "geometry/grids/voxel_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -340,20 +340,15 @@ public:
 private:
     // One layer in the x-y plane. The tip of a stem is above.
     std::shared_ptr<const FieldGrid> grid() const {
-        initialize_openvdb();
         const Sheet& sheet = pattern_->sheet();
-        auto field = std::make_shared<FieldGrid>();
-        field->grid = openvdb::FloatGrid::create(0);
-        field->grid->setTransform(cell_centred_transform(cell_, {0, 0, -cell_ / 2}));
-        field->box = {openvdb::Coord(0, 0, 0), openvdb::Coord(sheet.columns - 1, sheet.rows - 1, 0)};
-        auto accessor = field->grid->getAccessor();
+        VoxelValues values(cell_, {0, 0, -cell_ / 2});
         for (int row = 0; row < sheet.rows; ++row) {
             for (int column = 0; column < sheet.columns; ++column) {
-                const openvdb::Coord at(column, sheet.round ? sheet.rows - 1 - row : row, 0);
-                accessor.setValue(at, static_cast<float>(pattern_->shown()[sheet.cell(column, row)]));
+                values.set({column, sheet.round ? sheet.rows - 1 - row : row, 0},
+                           static_cast<float>(pattern_->shown()[sheet.cell(column, row)]));
             }
         }
-        return field;
+        return values.grid();
     }
 
     std::string name_;
