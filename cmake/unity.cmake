@@ -1,12 +1,11 @@
-# A first build from nothing takes half of the time if the files of a folder are compiled at once, and a small change then
-# takes longer. Nothing is said of shadows then: a local name may be that of something unnamed of a neighbour.
-option(ESPALIER_UNITY "compile several files of a folder at once" OFF)
-set(ESPALIER_UNITY_FILES 10)  # more at once need more memory than `./dev` counts on, and leave a core idle at the end
+# A first build from nothing takes half of the time if neighbouring files are compiled at once, and a small change then takes
+# longer. Nothing is said of shadows then: a local name may be that of something unnamed of a neighbour.
+option(ESPALIER_UNITY "compile several files at once: those of a folder, and of small folders together" OFF)
+set(files_at_once 10)  # more need more memory than `./dev` counts on, and leave cores idle at the end
 function(compile_together target)
   if(NOT ESPALIER_UNITY)
     return()
   endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
     cmake_path(GET source PARENT_PATH folder)
@@ -18,18 +17,31 @@ function(compile_together target)
   list(REMOVE_DUPLICATES folders)
   foreach(folder IN LISTS folders)
     list(LENGTH of_${folder} files)
-    if(files EQUAL 1)
-      continue()
+    if(files LESS 6)
+      list(APPEND of_small ${of_${folder}})
+    else()
+      compile_at_once(${folder} ${of_${folder}})
     endif()
-    math(EXPR parts "(${files} + ${ESPALIER_UNITY_FILES} - 1) / ${ESPALIER_UNITY_FILES}")
-    set(i 0)
-    foreach(source IN LISTS of_${folder})
-      math(EXPR part "${i} * ${parts} / ${files}")
-      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${part})
-      math(EXPR i "${i} + 1")
-    endforeach()
+  endforeach()
+  compile_at_once(small ${of_small})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()
+
+# In as few parts of one size as there must be.
+function(compile_at_once group)
+  list(LENGTH ARGN files)
+  if(files LESS 2)
+    return()
+  endif()
+  math(EXPR parts "(${files} + ${files_at_once} - 1) / ${files_at_once}")
+  set(i 0)
+  foreach(source IN LISTS ARGN)
+    math(EXPR part "${i} * ${parts} / ${files}")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group}_${part})
+    math(EXPR i "${i} + 1")
   endforeach()
 endfunction()
+
 # What these define in unnamed namespaces has the names of their neighbours'. Files of open folders are always alone.
 file(GLOB alone src/environment/processes/*.cpp src/turtle/stages/*.cpp src/language/notations/*.cpp
   src/timeline/recorders/*.cpp src/formats/exporters/*.cpp)

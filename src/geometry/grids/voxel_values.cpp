@@ -2,6 +2,8 @@
 
 #include "espalier/geometry/openvdb_grid.h"
 
+#include <openvdb/tools/Dense.h>
+
 namespace espalier::geometry {
 
 struct VoxelValues::Writing {
@@ -34,6 +36,13 @@ void VoxelValues::add(const glm::ivec3& at, float value) {
     writing_->values.setValue(voxel, writing_->values.getValue(voxel) + value);
 }
 
+void VoxelValues::fill(const glm::ivec3& size, std::span<const float> values) {
+    show({0, 0, 0}, size - 1);
+    const openvdb::CoordBBox box({0, 0, 0}, {size.x - 1, size.y - 1, size.z - 1});
+    const openvdb::tools::Dense<const float, openvdb::tools::LayoutXYZ> dense(box, values.data());
+    openvdb::tools::copyFromDense(dense, *writing_->field->grid, 0.0f);
+}
+
 void VoxelValues::show(const glm::ivec3& least, const glm::ivec3& most) {
     writing_->shown(least);
     writing_->shown(most);
@@ -41,6 +50,26 @@ void VoxelValues::show(const glm::ivec3& least, const glm::ivec3& most) {
 
 std::shared_ptr<const FieldGrid> VoxelValues::grid() const {
     return writing_->field;
+}
+
+struct VoxelReader::Reading {
+    std::shared_ptr<const FieldGrid> field;
+    openvdb::FloatGrid::ConstAccessor values;
+};
+
+VoxelReader::VoxelReader(std::shared_ptr<const FieldGrid> field)
+    : reading_(new Reading{field, field->grid->getConstAccessor()}) {}
+
+VoxelReader::~VoxelReader() = default;
+
+float VoxelReader::value(const glm::dvec3& place) const {
+    const openvdb::Vec3d index =
+        reading_->field->grid->transform().worldToIndex(openvdb::Vec3d(place.x, place.y, place.z));
+    return reading_->values.getValue(openvdb::Coord::round(index));
+}
+
+std::size_t bytes_held(const FieldGrid& field) {
+    return field.grid->memUsage();
 }
 
 }  // namespace espalier::geometry
