@@ -49,7 +49,7 @@ std::vector<std::uint32_t> numbers_of(const RecordedRun& run) {
     return numbers;
 }
 
-std::vector<const RecordedFrame*> frames_of(const RecordedRun& run) {
+std::vector<const RecordedFrame*> frames_in(const RecordedRun& run) {
     std::vector<const RecordedFrame*> frames;
     for (const RecordedFrame& frame : run.frames()) frames.push_back(&frame);
     return frames;
@@ -117,7 +117,7 @@ TEST_CASE("leaves: facets of one module are one leaf, cylinders are none, symbol
 TEST_CASE("a recorded run has a row per step and plant, and its files say the same", "[analysis]") {
     const RecordedFolder recorded;
     const RecordedRun run(recorded.folder.path);
-    const RunAnalysis analysis(run, frames_of(run), numbers_of(run));
+    const RunAnalysis analysis(run, frames_in(run), numbers_of(run));
     const RecordedTable table = analysis.table();
     REQUIRE(table.rows.size() == 4);
     CHECK(table.columns.size() == measure_descriptions().size() + 3);
@@ -156,7 +156,7 @@ TEST_CASE("a recorded run has a row per step and plant, and its files say the sa
 TEST_CASE("a leaf symbol that no frame knows is named with the nearest", "[analysis]") {
     const RecordedFolder recorded;
     const RecordedRun run(recorded.folder.path);
-    CHECK_THROWS_AS(RunAnalysis(run, frames_of(run), numbers_of(run), {{"Q"}}), UserError);
+    CHECK_THROWS_AS(RunAnalysis(run, frames_in(run), numbers_of(run), {{"Q"}}), UserError);
 }
 
 TEST_CASE("all plants and steps have the same layers, empty ones too, so that means over them are means",
@@ -167,7 +167,7 @@ TEST_CASE("all plants and steps have the same layers, empty ones too, so that me
     options.low = -2;
     options.high = 1;
     options.ground = 4;
-    const RunAnalysis analysis(run, frames_of(run), numbers_of(run), options);
+    const RunAnalysis analysis(run, frames_in(run), numbers_of(run), options);
     const RecordedTable layers = analysis.last_layers();
     const std::size_t plant = layers.column("plant"), height = layers.column("height"),
                       length = layers.column("length"), density = layers.column("ground_density");

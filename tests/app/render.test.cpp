@@ -11,7 +11,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const char* const scene = R"([simulation]
+const char* const rendered_scene = R"([simulation]
 steps = 4
 [[plant]]
 name = "left"
@@ -27,7 +27,7 @@ parameters = { length = "F.1" }
 struct RenderPlace : Workplace {
     RenderPlace() {
         write("bush.l", models::bush);
-        write("pair.toml", scene);
+        write("pair.toml", rendered_scene);
     }
 
     /// False, and says so, where nothing can be drawn.
@@ -208,7 +208,7 @@ TEST_CASE("render: light makes pictures, sheets and films, the same with any num
 TEST_CASE("render: the sun of a picture by light stands where that of the scene does", "[render][light]") {
     const RenderPlace place;
     if (!place.grow()) return;
-    const std::string head = std::string(scene) + "[environment.light]\nprocess = \"ray-light\"\npaths = 64\n";
+    const std::string head = std::string(rendered_scene) + "[environment.light]\nprocess = \"ray-light\"\npaths = 64\n";
     const std::string steady = "sky = { par = 1000, diffuse = 0.2, radiance = \"cie-12\", sun = [";
     place.write("east.toml", head + steady + "1, 1, 0] }\n");
     place.write("hours.toml", head + "days = 0.05\nsky = { latitude = 50, day = 172, hours = [12] }\n");

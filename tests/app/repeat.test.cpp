@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const char* const scene = R"([simulation]
+const char* const repeated_scene = R"([simulation]
 steps = 4
 [[plant]]
 model = "shrub.l"
@@ -25,7 +25,7 @@ const char* const shrub =
     "#define D 1.1\nLsystem: 1\nderivation length: 4\nAxiom: A(1)?E(1)\n"
     "A(x) --> F(x)[+A(x*0.5)?E(1)]A(x/D)\nF(x) --> F(x*D)\nendlsystem\n";
 
-std::size_t lines_in(const std::string& text) {
+std::size_t count_lines(const std::string& text) {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
@@ -33,7 +33,7 @@ std::size_t lines_in(const std::string& text) {
 
 TEST_CASE_METHOD(Workplace, "a run is repeated from its run.json alone, byte for byte", "[app]") {
     write("shrub.l", shrub);
-    write("scene.toml", scene);
+    write("scene.toml", repeated_scene);
     REQUIRE(run("run scene.toml --quiet --output first").code == 0);
     fs::remove(path() / "shrub.l");
     fs::remove(path() / "scene.toml");
@@ -142,22 +142,22 @@ TEST_CASE_METHOD(Workplace, "rerun keeps its timeline apart from the one it repe
 
 TEST_CASE_METHOD(Workplace, "a sweep runs every combination once, and makes one table of them", "[app]") {
     write("shrub.l", shrub);
-    write("scene.toml", scene);
+    write("scene.toml", repeated_scene);
     const std::string command = "sweep scene.toml --vary environment.light.voxel=0.5,1 --vary simulation.steps=2..4 ";
     const Outcome first = run(command + "--output s");
     CHECK(first.code == 0);
-    CHECK(lines_in(first.err) == 6);
+    CHECK(count_lines(first.err) == 6);
     const std::string table = text_of(path() / "s" / "sweep.csv");
     CHECK_THAT(table, Contains("run,environment.light.voxel,simulation.steps,name,step,time,plant,modules"));
     CHECK_THAT(table, Contains("\"voxel=0.5,steps=2\",0.5,2,shrub,2,2,0,"));
-    CHECK(lines_in(table) == 7);
+    CHECK(count_lines(table) == 7);
 
     // What is done stays; what has changed is done again.
     CHECK_THAT(run(command + "--output s").err, Contains("6 of 6 runs are already complete"));
     fs::remove(path() / "s" / "voxel=1,steps=3" / "run.json");
     CHECK_THAT(run(command + "--output s").err, Contains("5 of 6 runs are already complete"));
     write("shrub.l", std::string(shrub) + "\n");
-    CHECK(lines_in(run(command + "--output s --list").out) == 6);
+    CHECK(count_lines(run(command + "--output s --list").out) == 6);
 }
 
 TEST_CASE_METHOD(Workplace, "a sweep draws any statistic over what was varied, also afterwards", "[app]") {
@@ -181,7 +181,7 @@ TEST_CASE_METHOD(Workplace, "a sweep draws any statistic over what was varied, a
 
 TEST_CASE_METHOD(Workplace, "a sweep knows its statistics before it runs", "[app]") {
     write("shrub.l", shrub);
-    write("scene.toml", scene);
+    write("scene.toml", repeated_scene);
     const Outcome outcome = run("sweep scene.toml --vary simulation.seed=1..3 --statistic light.meen --output s");
     CHECK(outcome.code == 1);
     CHECK_THAT(outcome.err, Contains("there is no quantity 'light.meen' (did you mean 'light.mean'?)"));
@@ -192,13 +192,13 @@ TEST_CASE_METHOD(Workplace, "the commands a sweep lists are those it would run",
     write("shrub.l", shrub);
     const std::string command = "sweep shrub.l --vary D=1.1,1.2 --output 'a b'";
     const Outcome list = run(command + " --list");
-    CHECK(lines_in(list.out) == 2);
+    CHECK(count_lines(list.out) == 2);
     CHECK_THAT(list.out, Contains("--define D=1.2") && Contains("'a b/D=1.2'"));
     write("commands", list.out);
     REQUIRE(std::system(("cd '" + path().string() + "' && sh commands").c_str()) == 0);
     CHECK(run(command + " --list").out == "");
     CHECK(run(command + " --quiet").code == 0);
-    CHECK(lines_in(text_of(path() / "a b" / "sweep.csv")) == 3);
+    CHECK(count_lines(text_of(path() / "a b" / "sweep.csv")) == 3);
 }
 
 TEST_CASE_METHOD(Workplace, "the script for Slurm runs the line of its task, and says if there is none", "[app]") {
@@ -230,11 +230,11 @@ TEST_CASE_METHOD(Workplace, "a run that fails does not keep the others of its sw
 TEST_CASE_METHOD(Workplace, "sweep.csv tells of no run that failed, nor of what lay there before it", "[app]") {
     write("shrub.l", shrub);
     REQUIRE(run("sweep shrub.l --vary D=1.1,1.2 --quiet --output s").code == 0);
-    CHECK(lines_in(text_of(path() / "s" / "sweep.csv")) == 3);
+    CHECK(count_lines(text_of(path() / "s" / "sweep.csv")) == 3);
     write("shrub.l", "no model at all");
     CHECK(run("sweep shrub.l --vary D=1.1,1.2 --quiet --output s").code == 2);
     CHECK(fs::exists(path() / "s" / "D=1.1" / "statistics.csv"));
-    CHECK(lines_in(text_of(path() / "s" / "sweep.csv")) == 1);
+    CHECK(count_lines(text_of(path() / "s" / "sweep.csv")) == 1);
 }
 
 TEST_CASE_METHOD(Workplace, "a scene of the same name elsewhere is another sweep", "[app]") {
@@ -244,8 +244,8 @@ TEST_CASE_METHOD(Workplace, "a scene of the same name elsewhere is another sweep
     }
     const std::string sweep = " sweep shrub.l --vary D=1.1,1.2 --quiet --output ../s";
     REQUIRE(run(sweep, "cd here;").code == 0);
-    CHECK(lines_in(run(sweep + " --list", "cd here;").out) == 0);
-    CHECK(lines_in(run(sweep + " --list", "cd there;").out) == 2);
+    CHECK(count_lines(run(sweep + " --list", "cd here;").out) == 0);
+    CHECK(count_lines(run(sweep + " --list", "cd there;").out) == 2);
 }
 
 TEST_CASE_METHOD(Workplace, "values that would share a folder, or are no numbers, are refused", "[app]") {
@@ -253,7 +253,7 @@ TEST_CASE_METHOD(Workplace, "values that would share a folder, or are no numbers
     CHECK_THAT(run("sweep shrub.l --vary D=1,2,1").err, Contains("the value 1 is there twice"));
     CHECK_THAT(run("sweep shrub.l --vary D=1:1:3").err, Contains("the value 1 is there twice"));
     CHECK(run("sweep shrub.l --vary D=-1e308:1e308:3").code == 1);
-    CHECK(lines_in(run("sweep shrub.l --vary D=../a,b --list").out) == 2);
+    CHECK(count_lines(run("sweep shrub.l --vary D=../a,b --list").out) == 2);
     write("file", "");
     const Outcome outcome = run("sweep shrub.l --vary D=1.1,1.2 --output file");
     CHECK(outcome.code == 2);

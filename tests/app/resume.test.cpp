@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const char* const growing =
+const char* const resumed =
     "environment light;\nlsystem: 1\nseed: 2\nderivation length: 60\naxiom: A(1)\n"
     "A(x) --> F(x)[+A(x*0.9)?light(1)] : 1\nA(x) --> F(x)A(x*0.99) : 2\nF(x) : x < 4 --> F(x*1.01)\nendlsystem\n";
 
@@ -22,7 +22,7 @@ const char* const lit =
 class Resumed : public Workplace {
 public:
     Resumed() {
-        write("growing.l", growing);
+        write("growing.l", resumed);
         write("lit.toml", lit);
         REQUIRE(run("run lit.toml --quiet --output whole").code == 0);
     }
@@ -101,11 +101,11 @@ TEST_CASE_METHOD(Resumed, "what cannot go on is refused in words", "[app]") {
     run_until(
         {"run", "lit.toml", "--quiet", "--output", "again", "--checkpoint-every", "1"},
         [&] { return fs::exists(path() / "again" / "checkpoint"); }, [](pid_t process) { kill(process, SIGKILL); });
-    write("growing.l", std::string(growing) + "\n");
+    write("growing.l", std::string(resumed) + "\n");
     const Outcome changed = run("resume again");
     CHECK(changed.code == 1);
     CHECK_THAT(changed.err, Contains("growing.l has changed since the run began"));
-    write("growing.l", growing);
+    write("growing.l", resumed);
     const std::string bytes = text_of(path() / "again" / "checkpoint");
     write("again/checkpoint", bytes.substr(0, bytes.size() / 2));
     CHECK(run("resume again").code != 0);

@@ -11,7 +11,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const char* const scene = R"([[plant]]
+const char* const staged_scene = R"([[plant]]
 model = "bush.l"
 [[plant.stage]]
 stage = "pipe-radii"
@@ -31,7 +31,7 @@ struct Leafy : Workplace {
         write("leaf.ppm", std::string("P6\n2 1\n255\n") + "\xff" + std::string(4, '\0') + "\xff");
     }
     void grow(const std::string& kind) const {
-        std::string text = scene;
+        std::string text = staged_scene;
         text.replace(text.find("KIND"), 4, kind);
         write("scene.toml", text);
         const Outcome outcome = run("run scene.toml --steps 3 --output run --quiet");

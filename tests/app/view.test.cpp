@@ -82,7 +82,7 @@ bool has_virtual_display() {
 }
 
 /// True where pictures can be drawn; says so where they cannot.
-bool drew(const Outcome& outcome) {
+bool drew_view(const Outcome& outcome) {
     const bool none = outcome.err.find("no picture can be drawn") != std::string::npos;
     if (none) WARN("skipped: " << outcome.err);
     return !none;
@@ -206,7 +206,7 @@ TEST_CASE_METHOD(Viewed, "a window of any size draws what fits", "[app][view]") 
 
 TEST_CASE_METHOD(Viewed, "a screenshot needs no display", "[app][view]") {
     const Outcome outcome = run("view run --step 2 --screenshot two.png --size 640x480 --dark", "env -u DISPLAY");
-    if (!drew(outcome)) return;
+    if (!drew_view(outcome)) return;
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
     const Picture picture(path() / "two.png");
@@ -218,7 +218,7 @@ TEST_CASE_METHOD(Viewed, "a screenshot needs no display", "[app][view]") {
 
 TEST_CASE_METHOD(Viewed, "a scene is shown while it grows, to its end", "[app][view]") {
     const Outcome outcome = without_display("stalk.l --steps 12 --output grown", "wait\nprint\nscreenshot end.png\n");
-    if (!drew(outcome)) return;
+    if (!drew_view(outcome)) return;
     INFO(outcome.err << outcome.out);
     REQUIRE(outcome.code == 0);
     CHECK_THAT(outcome.out, Contains("step 12") && Contains("frame: 13 of 13") && Contains("the run has ended"));
@@ -236,7 +236,7 @@ TEST_CASE_METHOD(Viewed, "a scene is shown while it grows, to its end", "[app][v
 TEST_CASE_METHOD(Viewed, "closing the window ends the run after the step at hand, and nothing is lost", "[app][view]") {
     write("patient.l", models::patient);
     const Outcome outcome = without_display("patient.l --output grown", "print\nkey q\n");
-    if (!drew(outcome)) return;
+    if (!drew_view(outcome)) return;
     INFO(outcome.err << outcome.out);
     CHECK(outcome.code == 0);
     CHECK_THAT(outcome.out, Contains("running") && Contains("live") && Contains("grown/\n"));
@@ -246,7 +246,7 @@ TEST_CASE_METHOD(Viewed, "closing the window ends the run after the step at hand
 
 TEST_CASE_METHOD(Viewed, "--keep-running waits for the end of the run", "[app][view]") {
     const Outcome outcome = without_display("stalk.l --steps 40 --output grown --keep-running", "key q\n");
-    if (!drew(outcome)) return;
+    if (!drew_view(outcome)) return;
     INFO(outcome.err);
     CHECK(outcome.code == 0);
     CHECK(json::parse(text_of(path() / "grown/run.json"))["exit"] == "done");
@@ -255,7 +255,7 @@ TEST_CASE_METHOD(Viewed, "--keep-running waits for the end of the run", "[app][v
 TEST_CASE_METHOD(Viewed, "a signal closes window and run", "[app][view]") {
     write("patient.l", models::patient);
     write("script.txt", "wait\n");
-    if (!drew(run("view run --screenshot a.png"))) return;
+    if (!drew_view(run("view run --screenshot a.png"))) return;
     const Outcome outcome = run_until(
         {"view", "patient.l", "--output", "grown", "--script", "script.txt"},
         [&] { return fs::exists(path() / "grown/plants/0002.vtp"); }, [](pid_t process) { kill(process, SIGTERM); });
@@ -272,7 +272,7 @@ TEST_CASE_METHOD(Viewed, "mistakes in a scene and failures of its run are told",
     CHECK_FALSE(fs::exists(path() / "a.png"));
     write("zero.l", models::zero_by_zero);
     const Outcome failed = without_display("zero.l --output failed", "wait\nprint\n");
-    if (!drew(failed)) return;
+    if (!drew_view(failed)) return;
     INFO(failed.err << failed.out);
     CHECK(failed.code == 2);
     CHECK_THAT(failed.out, Contains("status: the run failed"));
@@ -288,7 +288,7 @@ TEST_CASE_METHOD(Viewed, "mistakes on the command line of view are named", "[app
     CHECK_THAT(run("view run --step x --screenshot a.png").err, Contains("--step x"));
     CHECK_THAT(run("view nowhere --screenshot a.png").err, Contains("nowhere"));
     const Outcome colour = run("view run --colour-by agee --screenshot a.png", "env -u DISPLAY");
-    if (!drew(colour)) return;
+    if (!drew_view(colour)) return;
     CHECK(colour.code == 1);
     CHECK_THAT(colour.err, Contains("agee") && Contains("age"));
 }

@@ -22,7 +22,7 @@ std::string check_of(const std::string& source, const fs::path& instead) {
     throw std::runtime_error("nothing compiles " + source);
 }
 
-std::string text_of(const Block& block) {
+std::string source_of(const Block& block) {
     std::string text;
     for (const std::string& line : block.lines) text += line + "\n";
     return text;
@@ -31,7 +31,7 @@ std::string text_of(const Block& block) {
 std::vector<std::string> cpp_of(const fs::path& page) {
     std::vector<std::string> texts;
     for (const Block& block : blocks_of(page)) {
-        if (block.language == "cpp") texts.push_back(text_of(block));
+        if (block.language == "cpp") texts.push_back(source_of(block));
     }
     return texts;
 }

@@ -80,7 +80,7 @@ TEST_CASE("Every link of a page leads to a file, and to a heading if it names on
 TEST_CASE("Every header that an example of a page includes is there", "[docs]") {
     static const std::regex include(R"re(\s*#include "(espalier/[^"]+)".*)re");
     for (const fs::path& page : all_pages()) {
-        for (const Block& block : blocks_of(page)) {
+        for (const pages::Block& block : blocks_of(page)) {
             for (const std::string& line : block.lines) {
                 std::smatch found;
                 if (!std::regex_match(line, found, include)) continue;

@@ -11,7 +11,7 @@ using namespace espalier;
 
 namespace {
 
-double quantity(const World& world, const std::string& name) {
+double quantity_named(const World& world, const std::string& name) {
     for (const Quantity& each : world.environment().statistics(0)) {
         if (each.name == name) return each.value;
     }
@@ -58,9 +58,9 @@ TEST_CASE("09: roots avoid the stone, grow more where it is wet, and every drop 
     for (const Internode& internode : world->interpretation(0).geometry.internodes) {
         CHECK(glm::distance(internode.tip, glm::dvec3(0.15, -0.6, 0)) >= 0.15 - 1e-3);
     }
-    CHECK(quantity(*world, "water.drunk") > 100);
-    CHECK(std::abs(quantity(*world, "water.balance")) < 1e-9);
-    CHECK(quantity(*world, "water.minimum") >= 0);
+    CHECK(quantity_named(*world, "water.drunk") > 100);
+    CHECK(std::abs(quantity_named(*world, "water.balance")) < 1e-9);
+    CHECK(quantity_named(*world, "water.minimum") >= 0);
 
     // The wet region is on the right; without it the stone there leaves more roots on the left.
     SceneOptions uniform;

@@ -8,7 +8,7 @@ using namespace espalier;
 
 namespace {
 
-constexpr int side = 8;
+constexpr int side_of_stand = 8;
 
 /// Sums over the trees at the edge of the stand, and over those with two trees between them and the open.
 template <class Quantity>
@@ -16,8 +16,8 @@ double edge_over_inside(const World& world, const Quantity& quantity) {
     double edge = 0, inside = 0;
     int at_edge = 0, within = 0;
     for (std::size_t tree = 0; tree < world.size(); ++tree) {
-        const int column = static_cast<int>(tree) % side, row = static_cast<int>(tree) / side;
-        const int depth = std::min({column, row, side - 1 - column, side - 1 - row});
+        const int column = static_cast<int>(tree) % side_of_stand, row = static_cast<int>(tree) / side_of_stand;
+        const int depth = std::min({column, row, side_of_stand - 1 - column, side_of_stand - 1 - row});
         if (depth == 0) edge += quantity(tree), ++at_edge;
         if (depth >= 2) inside += quantity(tree), ++within;
     }
@@ -29,11 +29,11 @@ double edge_over_inside(const World& world, const Quantity& quantity) {
 TEST_CASE("trees at the edge of a stand outgrow those inside, once the crowns have met", "[experiments][forest]") {
     SceneOptions options;
     for (const char* count : {"plant.0.grid.columns", "plant.0.grid.rows"}) {
-        options.overrides.emplace_back(count, std::to_string(side));
+        options.overrides.emplace_back(count, std::to_string(side_of_stand));
     }
     options.steps = 94;
     World world(read_scene(source_path("environments/forest.toml"), options));
-    REQUIRE(world.size() == side * side);
+    REQUIRE(world.size() == side_of_stand * side_of_stand);
     const auto modules = [&](std::size_t tree) { return static_cast<double>(world.string(tree).size()); };
     const auto wood = [&](std::size_t tree) { return total_length(world.interpretation(tree).geometry); };
     world.start();

@@ -8,7 +8,7 @@ using namespace espalier;
 
 namespace {
 
-constexpr int seeds = 10;
+constexpr int seeds_in_plane = 10;
 constexpr double wet_enough = 0.18;  ///< half way between dry and wet in root-2d.toml
 constexpr double end_of_s = -1.08;   ///< the S reaches down to here, m
 
@@ -16,7 +16,7 @@ constexpr double end_of_s = -1.08;   ///< the S reaches down to here, m
 const std::vector<Grown>& ten(const std::string& scene) {
     static std::map<std::string, std::vector<Grown>> grown;
     std::vector<Grown>& runs = grown[scene];
-    for (int seed = static_cast<int>(runs.size()) + 1; seed <= seeds; ++seed) {
+    for (int seed = static_cast<int>(runs.size()) + 1; seed <= seeds_in_plane; ++seed) {
         runs.push_back(grow_watched("environments/" + scene, with_seed(seed)));
     }
     return runs;

@@ -8,7 +8,7 @@ using namespace espalier;
 
 namespace {
 
-constexpr int seeds = 20;
+constexpr int seeds_in_space = 20;
 constexpr double depth = -0.6;    ///< where distances are measured, m
 constexpr double planted = 0.12;  ///< how far apart the roots begin, m
 constexpr std::size_t left = 0, right = 1;
@@ -40,7 +40,7 @@ Crossing cross(const std::string& scene, const SceneOptions& options) {
 const std::vector<Crossing>& twenty(const std::string& scene) {
     static std::map<std::string, std::vector<Crossing>> grown;
     std::vector<Crossing>& runs = grown[scene];
-    for (int seed = static_cast<int>(runs.size()) + 1; seed <= seeds; ++seed) {
+    for (int seed = static_cast<int>(runs.size()) + 1; seed <= seeds_in_space; ++seed) {
         runs.push_back(cross(scene, with_seed(seed)));
     }
     return runs;
@@ -84,14 +84,14 @@ TEST_CASE("two roots: a root alone keeps straight on average, and bends less tha
     CHECK(std::abs(straight.mean) < 0.2 * std::abs(bent.mean));
     CHECK(bent.mean < -3 * bent.error);
     int away = 0;
-    for (int seed = 0; seed < seeds; ++seed) away += paired[seed] < alone[seed];
+    for (int seed = 0; seed < seeds_in_space; ++seed) away += paired[seed] < alone[seed];
     CHECK(away >= 19);
 }
 
 TEST_CASE("two roots: without depletion a root does not feel its neighbour at all, and the distance stays", "[roots]") {
     const auto& two = twenty("two-roots-no-depletion.toml");
     std::vector<double> gain;
-    for (int seed = 1; seed <= seeds; ++seed) {
+    for (int seed = 1; seed <= seeds_in_space; ++seed) {
         SceneOptions alone = with_seed(seed);
         alone.overrides = {{"environment.water.depletion", "false"}};
         if (seed <= 5) CHECK(cross("one-root.toml", alone).nodes[left] == two[seed - 1].nodes[left]);

@@ -60,10 +60,10 @@ std::string symbol(const World& world, std::size_t plant, std::size_t module) {
     return world.model(plant).alphabet.name(world.string(plant).letters[module]);
 }
 
-std::map<std::string, int> counts(const World& world, std::size_t plant) {
-    std::map<std::string, int> counts;
-    for (LetterId letter : world.string(plant).letters) ++counts[world.model(plant).alphabet.name(letter)];
-    return counts;
+std::map<std::string, int> letter_counts(const World& world, std::size_t plant) {
+    std::map<std::string, int> letter_counts;
+    for (LetterId letter : world.string(plant).letters) ++letter_counts[world.model(plant).alphabet.name(letter)];
+    return letter_counts;
 }
 
 /// Buds with a signal right behind them.
@@ -191,7 +191,7 @@ TEST_CASE("without its shape a hedge grows out and nothing is ever cut", "[topia
     const auto world = grown("environments/topiary-free.toml");
     Box bounds;
     for (std::size_t plant = 0; plant < world->size(); ++plant) {
-        auto symbols = counts(*world, plant);
+        auto symbols = letter_counts(*world, plant);
         CHECK(symbols["S"] + symbols["F"] + symbols["%"] == 0);
         bounds.add(world->interpretation(plant).geometry.bounds);
     }
@@ -213,8 +213,8 @@ TEST_CASE("a hedge clipped closer grows anew near the cut, not in its core", "[t
     clipped.start();
     left_alone.start();
     grow_both(100);
-    const auto modules = counts(clipped, 0);
-    REQUIRE(modules == counts(left_alone, 0));
+    const auto modules = letter_counts(clipped, 0);
+    REQUIRE(modules == letter_counts(left_alone, 0));
     const std::set<Identity> before = identities(clipped, 0, "I");
     grow_both(6);
 

@@ -113,10 +113,10 @@ private:
 };
 
 /// A crown at the end of a cycle.
-struct Crown {
+struct TurnedCrown {
     double leaves = 0, to_right = 0;
 
-    explicit Crown(const std::vector<double>& clusters)
+    explicit TurnedCrown(const std::vector<double>& clusters)
         : leaves(static_cast<double>(clusters.size())),
           to_right(
               static_cast<double>(std::count_if(clusters.begin(), clusters.end(), [](double x) { return x > 0; }))) {}
@@ -126,9 +126,9 @@ struct Crown {
 
 /// A tree's life in a scene.
 struct Life {
-    std::vector<Crown> crowns;  ///< crowns[c - 1] at the end of cycle c
-    std::vector<Stem> cut;      ///< branches that were cut, as they were in the step before
-    std::vector<Stem> spared;   ///< those that were not, in the steps in which some tree sheds
+    std::vector<TurnedCrown> crowns;  ///< crowns[c - 1] at the end of cycle c
+    std::vector<Stem> cut;            ///< branches that were cut, as they were in the step before
+    std::vector<Stem> spared;         ///< those that were not, in the steps in which some tree sheds
     double worst_fork = 0;
     std::size_t forks = 0;
     std::vector<double> trunk_x;  ///< in every frame
@@ -233,7 +233,7 @@ TEST_CASE("two trees: in the light that their drawn leaves leave, by Beer's law 
         options.steps = end_of(10);
         const std::vector<Life> two = lives("two-trees.toml", options), lone = lives("lone-tree.toml", options);
         const double alone = lone.front().crowns.back().asymmetry();
-        const Crown &left = two[0].crowns.back(), &right = two[1].crowns.back();
+        const TurnedCrown &left = two[0].crowns.back(), &right = two[1].crowns.back();
         CAPTURE(process, alone, left.asymmetry(), right.asymmetry(), left.leaves, right.leaves,
                 lone.front().crowns.back().leaves);
         CHECK(left.asymmetry() < alone - 0.1);
@@ -243,7 +243,7 @@ TEST_CASE("two trees: in the light that their drawn leaves leave, by Beer's law 
 }
 
 TEST_CASE("two trees: less than 0.35 of each tree's leaves are on the side of the neighbour", "[two-trees]") {
-    const Crown &left = two_trees()[0].crowns.back(), &right = two_trees()[1].crowns.back();
+    const TurnedCrown &left = two_trees()[0].crowns.back(), &right = two_trees()[1].crowns.back();
     CAPTURE(left.leaves, left.to_right, right.leaves, right.to_right);
     CHECK(left.to_right / left.leaves < 0.35);
     CHECK(1 - right.to_right / right.leaves < 0.35);

@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::size_t most = 700;
 
-void split(ExportJob& job) {
+void in_pieces(ExportJob& job) {
     job.most_vertices = most;
 }
 
@@ -66,7 +66,7 @@ std::vector<std::string> names_in(const std::filesystem::path& folder) {
 TEST_CASE("an OBJ is split into objects that together are the whole", "[export][split]") {
     const SmallTree tree;
     const ObjFile whole(ExportedPlant(tree.plant, "obj").files.at(0).path);
-    const ExportedPlant exported(tree.plant, "obj", split);
+    const ExportedPlant exported(tree.plant, "obj", in_pieces);
     const ObjFile pieces(exported.files.at(0).path);
     CHECK(pieces.triangles() == whole.triangles());
     const auto objects = pieces.vertices_of_objects();
@@ -86,7 +86,7 @@ TEST_CASE("PLY and STL are split into files that together are the whole", "[expo
         INFO(format);
         const auto add = std::string_view(format) == "ply" ? add_triangles<vtkPLYReader> : add_triangles<vtkSTLReader>;
         Triangles whole, pieces;
-        const ExportedPlant one(tree.plant, format), several(tree.plant, format, split);
+        const ExportedPlant one(tree.plant, format), several(tree.plant, format, in_pieces);
         add(one.files.at(0).path, whole);
         for (const ExportedFile& file : several.files) {
             CHECK(file.vertices <= most);
@@ -100,7 +100,7 @@ TEST_CASE("PLY and STL are split into files that together are the whole", "[expo
 
 TEST_CASE("a glTF is split into meshes with indices of 16 bits", "[export][split]") {
     const SmallTree tree;
-    const ExportedPlant one(tree.plant, "gltf"), several(tree.plant, "gltf", split);
+    const ExportedPlant one(tree.plant, "gltf"), several(tree.plant, "gltf", in_pieces);
     const nlohmann::json json = json_of(several.files.at(0).path);
     std::size_t corners = 0;
     for (const auto& mesh : json["meshes"]) {
@@ -127,8 +127,8 @@ TEST_CASE("one part that is larger than a piece is cut", "[export][split]") {
 }
 
 TEST_CASE("USD and animations are not split", "[export][split]") {
-    CHECK_THROWS_WITH(Exported("usd", {}, {4}, "", split), Contains("--split 700") && Contains("32 bits"));
-    CHECK_THROWS_WITH(Exported("gltf", {}, {0, 4}, "", split), Contains("--split 700"));
+    CHECK_THROWS_WITH(Exported("usd", {}, {4}, "", in_pieces), Contains("--split 700") && Contains("32 bits"));
+    CHECK_THROWS_WITH(Exported("gltf", {}, {0, 4}, "", in_pieces), Contains("--split 700"));
 }
 
 TEST_CASE("names carry the numbers of vertices and triangles if asked for", "[export][names]") {

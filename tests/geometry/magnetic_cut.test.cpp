@@ -14,7 +14,7 @@ using namespace espalier::geometry;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double area(const std::vector<Contour::Vertex>& vertices) {
     double sum = 0;

@@ -10,7 +10,7 @@ using namespace espalier::test;
 namespace {
 
 /// The value of an expression, to the six digits that are printed.
-std::string value(const std::string& expression, const std::string& start = "") {
+std::string printed_value(const std::string& expression, const std::string& start = "") {
     const std::string text = derived(lsystem_of("Start: {" + start + "}\n", "A(" + expression + ")", "B --> C\n"));
     return text.substr(2, text.size() - 3);
 }
@@ -26,43 +26,43 @@ TEST_CASE("6 statements", "[conformance]") {
                              "    do { i = i - 1; } while (i > 0);\n"
                              "    if (sum[3] == 8) { ok = 1; } else { ok = 0; }\n}\n",
                              "A(ok, i, sum[2])", "B --> C\n")) == "A(1,0,4)");
-    CHECK(value("n", "if (0) { n = 1; } else { n = 2; }") == "2");
-    CHECK(value("n", "if (0)\n{\nn = 1;\n}") == "0");
-    CHECK(value("n", "n = m = 3; n + 1;") == "3");
-    CHECK(value("n", "n\n= 2; n\n += m\n= 3;") == "5");
+    CHECK(printed_value("n", "if (0) { n = 1; } else { n = 2; }") == "2");
+    CHECK(printed_value("n", "if (0)\n{\nn = 1;\n}") == "0");
+    CHECK(printed_value("n", "n = m = 3; n + 1;") == "3");
+    CHECK(printed_value("n", "n\n= 2; n\n += m\n= 3;") == "5");
     CHECK(mistake(lsystem_of("Start: { if (1) n = 2; }\n", "A", "A --> A\n")).find("'{' to begin a block") !=
           std::string::npos);
     quote("A `;` ends a statement. It is optional before a closing brace, and allowed after one or alone.");
-    CHECK(value("n", "if (1) { n = 1; }; ; n = n + 1") == "2");
+    CHECK(printed_value("n", "if (1) { n = 1; }; ; n = n + 1") == "2");
 }
 
 TEST_CASE("6 operators", "[conformance]") {
     quote(
         "Operators, from the highest precedence: `!`; unary `-`; `^`; `*` `/` `%`; `+` `-`; `<` `<=` `>` `>=`; `==` "
         "`!=` `<>`; `&&`; `||`; `? :`; `=`.");
-    CHECK(value("!0 + 1") == "2");
-    CHECK(value("2 * 3 ^ 2") == "18");
-    CHECK(value("1 + 2 * 3 - 8 / 4 % 3") == "5");
-    CHECK(value("1 + 1 < 3") == "1");
-    CHECK(value("3 > 2 == 1") == "1");
-    CHECK(value("0 && 0 || 1") == "1");
-    CHECK(value("1 || 0 && 0") == "1");
-    CHECK(value("0 ? 1 : 0 ? 2 : 3") == "3");
-    CHECK(value("1 == 2 && 3") == "0");
+    CHECK(printed_value("!0 + 1") == "2");
+    CHECK(printed_value("2 * 3 ^ 2") == "18");
+    CHECK(printed_value("1 + 2 * 3 - 8 / 4 % 3") == "5");
+    CHECK(printed_value("1 + 1 < 3") == "1");
+    CHECK(printed_value("3 > 2 == 1") == "1");
+    CHECK(printed_value("0 && 0 || 1") == "1");
+    CHECK(printed_value("1 || 0 && 0") == "1");
+    CHECK(printed_value("0 ? 1 : 0 ? 2 : 3") == "3");
+    CHECK(printed_value("1 == 2 && 3") == "0");
     quote(
         "All binary operators associate to the left, so `2^3^2` is 64. Unary minus has a higher precedence than `^`, "
         "so `-2^2` is 4.");
-    CHECK(value("2^3^2") == "64");
-    CHECK(value("-2^2") == "4");
-    CHECK(value("2^-1") == "0.5");
-    CHECK(value("8 - 4 - 2") == "2");
-    CHECK(value("16 / 4 / 2") == "2");
+    CHECK(printed_value("2^3^2") == "64");
+    CHECK(printed_value("-2^2") == "4");
+    CHECK(printed_value("2^-1") == "0.5");
+    CHECK(printed_value("8 - 4 - 2") == "2");
+    CHECK(printed_value("16 / 4 / 2") == "2");
     quote("`<>` is the same as `!=`. `%` first truncates both operands to whole numbers. Comparisons give 1 or 0.");
-    CHECK(value("(1 <> 2) + (1 != 1) + (2 <= 2) + (2 >= 3)") == "2");
-    CHECK(value("7.9 % 3.9") == "1");
-    CHECK(value("-7 % 3") == "-1");
+    CHECK(printed_value("(1 <> 2) + (1 != 1) + (2 <= 2) + (2 >= 3)") == "2");
+    CHECK(printed_value("7.9 % 3.9") == "1");
+    CHECK(printed_value("-7 % 3") == "-1");
     quote("`&&`, `||` and `? :` evaluate only the operands that they need.");
-    CHECK(value("n", "0 && (n = 1); 1 || (n = 2); x = 1 ? 3 : (n = 4);") == "0");
+    CHECK(printed_value("n", "0 && (n = 1); 1 || (n = 2); x = 1 ? 3 : (n = 4);") == "0");
     quote(
         "Division by zero is an error that names the place and the module; with `--arithmetic cpfg`, the divisor is 1. "
         "A "
@@ -70,7 +70,7 @@ TEST_CASE("6 operators", "[conformance]") {
     const std::string division = lsystem_of("derivation length: 1\n", "A(0)", "A(x) --> B(3 / x)\n");
     CHECK(mistake(division).find("model.l:4:14") != std::string::npos);
     CHECK(mistake(lsystem_of("", "A(1 / 0)", "B --> C\n")).find("division by zero: 1 / 0") != std::string::npos);
-    CHECK(value("n", "if (0) { n = 1 / 0; } else { n = 2 > 1 ? 3 : 5 % 0; }") == "3");
+    CHECK(printed_value("n", "if (0) { n = 1 / 0; } else { n = 2 > 1 ? 3 : 5 % 0; }") == "3");
     ReadOptions cpfg;
     cpfg.arithmetic = Arithmetic::cpfg;
     CHECK(derived(division, cpfg) == "B(3)");
@@ -80,13 +80,13 @@ TEST_CASE("6 operators", "[conformance]") {
 
 TEST_CASE("7 functions of numbers", "[conformance]") {
     quote("angles in degrees; `atan(x, y)` with two arguments is the angle of the point (x, y)");
-    CHECK(value("sin(30), cos(60), tan(45)") == "0.5,0.5,1");
-    CHECK(value("asin(0.5), acos(0.5), atan(1)") == "30,60,45");
-    CHECK(value("atan(0, 2), atan(-1, 0), atan2(1, 0)") == "90,180,90");
-    CHECK(value("exp(1), log(exp(2)), sqrt(16), fabs(-3), floor(-1.5), ceil(-1.5)") == "2.71828,2,4,3,-2,-1");
+    CHECK(printed_value("sin(30), cos(60), tan(45)") == "0.5,0.5,1");
+    CHECK(printed_value("asin(0.5), acos(0.5), atan(1)") == "30,60,45");
+    CHECK(printed_value("atan(0, 2), atan(-1, 0), atan2(1, 0)") == "90,180,90");
+    CHECK(printed_value("exp(1), log(exp(2)), sqrt(16), fabs(-3), floor(-1.5), ceil(-1.5)") == "2.71828,2,4,3,-2,-1");
     quote("-1, 0 or 1; x truncated to a whole number (with `--arithmetic cpfg`: x rounded)");
-    CHECK(value("sign(-3), sign(0), sign(0.1)") == "-1,0,1");
-    CHECK(value("trunc(2.5), trunc(-2.5)") == "2,-2");
+    CHECK(printed_value("sign(-3), sign(0), sign(0.1)") == "-1,0,1");
+    CHECK(printed_value("trunc(2.5), trunc(-2.5)") == "2,-2");
     ReadOptions cpfg;
     cpfg.arithmetic = Arithmetic::cpfg;
     CHECK(derived(lsystem_of("", "A(trunc(2.5))", "B --> C\n"), cpfg) == "A(3)");
@@ -95,7 +95,7 @@ TEST_CASE("7 functions of numbers", "[conformance]") {
 TEST_CASE("7 random numbers", "[conformance]") {
     const auto mean = [](const std::string& expression) {
         const std::string start = "i = 0; while (i < 20000) { s = s + " + expression + "; i = i + 1; }";
-        return std::stod(value("s / i", start));
+        return std::stod(printed_value("s / i", start));
     };
     quote("uniform from 0 to x");
     CHECK(mean("ran(3)") == Approx(1.5).margin(0.03));
@@ -106,8 +106,8 @@ TEST_CASE("7 random numbers", "[conformance]") {
     CHECK(mean("bran(2, 3)") == Approx(0.4).margin(0.01));
     CHECK(mean("biran(10, 0.3)") == Approx(3).margin(0.06));
     quote("restarts the random numbers with seed s");
-    CHECK(value("a == b", "srand(5); a = ran(1); srand(5); b = ran(1);") == "1");
-    CHECK(value("a == b", "srand(5); a = ran(1); srand(6); b = ran(1);") == "0");
+    CHECK(printed_value("a == b", "srand(5); a = ran(1); srand(5); b = ran(1);") == "1");
+    CHECK(printed_value("a == b", "srand(5); a = ran(1); srand(6); b = ran(1);") == "0");
 }
 
 TEST_CASE("7 printf, stop, the derivation length", "[conformance]") {
@@ -133,16 +133,16 @@ TEST_CASE("13 additions to statements and functions", "[conformance]") {
     CHECK(
         derived("lsystem: 1\nStart: { for (i = 0; i < 10; i++) { sum += i; if (sum > 20) { break; } else if (sum > 10) "
                 "{ sum -= 1; } } last = i; }\naxiom: A(sum, last)\nA --> B\nendlsystem\n") == "A(26,7)");
-    CHECK(value("n, a", "n = 3; n *= 4; n /= 6; a = 5; --a; a++; ++a;") == "2,6");
-    CHECK(value("n", "for (i = 0; i < 3; i++) { while (1) { n++; break; } }") == "3");
+    CHECK(printed_value("n, a", "n = 3; n *= 4; n /= 6; a = 5; --a; a++; ++a;") == "2,6");
+    CHECK(printed_value("n", "for (i = 0; i < 3; i++) { while (1) { n++; break; } }") == "3");
     quote(
         "`min max abs round pow clamp(x, low, high) lerp(a, b, t) noise(x, y, z) atan2(y, x)` are functions, and `pi` "
         "and `e` are numbers. All are ordinary names: if a model assigns one, it becomes a variable.");
-    CHECK(value("min(3, 1, 2), max(3, 1), abs(-2), round(2.5), pow(2, 3), clamp(7, 0, 5), lerp(2, 4, 0.5)") ==
+    CHECK(printed_value("min(3, 1, 2), max(3, 1), abs(-2), round(2.5), pow(2, 3), clamp(7, 0, 5), lerp(2, 4, 0.5)") ==
           "1,3,2,3,8,5,3");
-    CHECK(value("noise(1, 2, 3), noise(0.5, 0, 0) <= 1") == "0,1");
-    CHECK(value("pi, e") == "3.14159,2.71828");
-    CHECK(value("e, max, min * (2)", "e = 7; max = 3; min = 4;") == "7,3,8");
+    CHECK(printed_value("noise(1, 2, 3), noise(0.5, 0, 0) <= 1") == "0,1");
+    CHECK(printed_value("pi, e") == "3.14159,2.71828");
+    CHECK(printed_value("e, max, min * (2)", "e = 7; max = 3; min = 4;") == "7,3,8");
 }
 
 TEST_CASE("13 declared modules, processes, constants, symbols", "[conformance]") {

@@ -19,7 +19,7 @@ using namespace espalier::test;
 namespace {
 
 /// What a random model may have.
-struct Kind {
+struct Traits {
     bool contexts = false, conditions = false, weights = false, several = false;
     bool nearest = false;  ///< contexts are one module, whose parameters nobody reads
     bool decomposition = false, cuts = false, blocks = false, sub_systems = false;
@@ -28,9 +28,9 @@ struct Kind {
 
 constexpr int letters = 5;
 
-class RandomModel {
+class ModelOfManyWays {
 public:
-    RandomModel(unsigned seed, const Kind& kind, int length) : random_(seed), kind_(kind) {
+    ModelOfManyWays(unsigned seed, const Traits& kind, int length) : random_(seed), kind_(kind) {
         for (int k = 0; k < letters; ++k) arities_.push_back(kind.nearest ? 0 : below(3));
         LSystem& system = builder.system();
         if (kind.cpfg) builder.model().arithmetic = Arithmetic::cpfg;
@@ -147,7 +147,7 @@ private:
     }
 
     std::mt19937 random_;
-    Kind kind_;
+    Traits kind_;
     std::vector<int> arities_;
 };
 
@@ -167,7 +167,7 @@ std::string way_of(const CompiledModel& model, const ModuleString& from) {
 }
 
 /// Counts the steps that each way was taken for.
-void compare(RandomModel& random, std::size_t threads, std::map<std::string, int>& ways) {
+void compare(ModelOfManyWays& random, std::size_t threads, std::map<std::string, int>& ways) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     const auto compiled = random.builder.compiled();
     DerivationSettings settings = with_lineage(3);
@@ -191,29 +191,29 @@ void compare(RandomModel& random, std::size_t threads, std::map<std::string, int
 }  // namespace
 
 TEST_CASE("every way of doing a step writes what replacing one module after the other writes", "[lsystem]") {
-    const Kind kinds[] = {{},
-                          {.several = true},
-                          {.conditions = true},
-                          {.weights = true},
-                          {.conditions = true, .weights = true, .several = true},
-                          {.cpfg = true},
-                          {.contexts = true, .conditions = true, .weights = true, .cpfg = true},
-                          {.contexts = true},
-                          {.contexts = true, .nearest = true},
-                          {.contexts = true, .weights = true, .nearest = true},
-                          {.contexts = true, .conditions = true},
-                          {.contexts = true, .conditions = true, .weights = true, .several = true},
-                          {.contexts = true, .weights = true, .cuts = true},
-                          {.conditions = true, .decomposition = true},
-                          {.conditions = true, .several = true, .decomposition = true},
-                          {.contexts = true, .weights = true, .several = true, .decomposition = true, .cuts = true},
-                          {.contexts = true, .conditions = true, .cuts = true, .blocks = true},
-                          {.contexts = true, .weights = true, .decomposition = true, .sub_systems = true}};
+    const Traits kinds[] = {{},
+                            {.several = true},
+                            {.conditions = true},
+                            {.weights = true},
+                            {.conditions = true, .weights = true, .several = true},
+                            {.cpfg = true},
+                            {.contexts = true, .conditions = true, .weights = true, .cpfg = true},
+                            {.contexts = true},
+                            {.contexts = true, .nearest = true},
+                            {.contexts = true, .weights = true, .nearest = true},
+                            {.contexts = true, .conditions = true},
+                            {.contexts = true, .conditions = true, .weights = true, .several = true},
+                            {.contexts = true, .weights = true, .cuts = true},
+                            {.conditions = true, .decomposition = true},
+                            {.conditions = true, .several = true, .decomposition = true},
+                            {.contexts = true, .weights = true, .several = true, .decomposition = true, .cuts = true},
+                            {.contexts = true, .conditions = true, .cuts = true, .blocks = true},
+                            {.contexts = true, .weights = true, .decomposition = true, .sub_systems = true}};
     std::map<std::string, int> ways;
-    for (const Kind& kind : kinds) {
+    for (const Traits& kind : kinds) {
         for (unsigned seed = 0; seed < 60; ++seed) {
             INFO("kind " << &kind - kinds << ", seed " << seed);
-            RandomModel random(seed, kind, seed % 10 == 9 ? 25'000 : 40);
+            ModelOfManyWays random(seed, kind, seed % 10 == 9 ? 25'000 : 40);
             compare(random, 1 + seed % 3, ways);
         }
     }

@@ -19,7 +19,7 @@ using namespace espalier;
 
 namespace {
 
-std::string file(const std::string& name) {
+std::string file_of_language(const std::string& name) {
     return "models/language/" + name + ".l";
 }
 
@@ -27,7 +27,7 @@ std::string file(const std::string& name) {
 
 TEST_CASE("Conditions: the printed strings; a module with another number of parameters is another module",
           "[language]") {
-    LonePlant string(file("conditions"));
+    LonePlant string(file_of_language("conditions"));
     for (const char* expected :
          {"B(2)A(4,4)A(1)", "B(1)B(4)A(1,0)A(1)", "B(0)B(3)A(2,1)A(1)", "CB(2)A(4,3)A(1)", "CB(1)A(8,7)A(1)"}) {
         CHECK(string.text() == expected);
@@ -36,7 +36,7 @@ TEST_CASE("Conditions: the printed strings; a module with another number of para
 }
 
 TEST_CASE("Parametric turtle: F(2.5) moves by 2.5, and +(90)+(-90) is nothing", "[language]") {
-    const LonePlant turtle(file("parametric-turtle"));
+    const LonePlant turtle(file_of_language("parametric-turtle"));
     const auto& segments = turtle.interpretation.geometry.internodes;
     REQUIRE(segments.size() == 6);
     const auto is = [](const glm::dvec3& point, double x, double y, double z) {
@@ -53,7 +53,7 @@ TEST_CASE("Parametric turtle: F(2.5) moves by 2.5, and +(90)+(-90) is nothing", 
 }
 
 TEST_CASE("Statements: 25 primes below 100, and all numbers of prime factors", "[language]") {
-    LonePlant sieve(file("statements"));
+    LonePlant sieve(file_of_language("statements"));
     sieve.grow(1);
     const auto numbers = parameters_of(sieve.string, sieve.model->alphabet, "Number");
     REQUIRE(numbers.size() == 98);
@@ -70,7 +70,7 @@ TEST_CASE("Statements: 25 primes below 100, and all numbers of prime factors", "
 }
 
 TEST_CASE("Blocks: Start once, StartEach and EndEach every step, and growth that watches itself", "[language]") {
-    LonePlant plant(file("blocks"));
+    LonePlant plant(file_of_language("blocks"));
     plant.derivation.set_length(12);
     int before = 0;
     for (int step = 1; step <= 12; ++step) {
@@ -85,7 +85,7 @@ TEST_CASE("Blocks: Start once, StartEach and EndEach every step, and growth that
 }
 
 TEST_CASE("Decomposition: metamers fall apart within the step", "[language]") {
-    LonePlant shoot(file("decomposition"));
+    LonePlant shoot(file_of_language("decomposition"));
     for (int n = 1; n <= 8; ++n) {
         shoot.grow(1);
         auto counts = shoot.counts();
@@ -96,26 +96,26 @@ TEST_CASE("Decomposition: metamers fall apart within the step", "[language]") {
 }
 
 TEST_CASE("Homomorphism: pictures of pictures, as deep as allowed, and nothing of them in the string", "[language]") {
-    const LonePlant deep(file("homomorphism"));
+    const LonePlant deep(file_of_language("homomorphism"));
     CHECK(deep.counts()["Flower"] == 3);
     CHECK(deep.counts()["Petal"] + deep.counts()["@"] == 0);
     CHECK(deep.interpretation.geometry.polygons.size() == 3 * 6 * 2);
     CHECK(deep.interpretation.geometry.organs.size() == 3);
     // Flower, Corolla, Petal and Half are four levels; each petal of a whorl begins one level deeper.
-    const LonePlant shallow(file("homomorphism"), {{"DEPTH", "2"}});
+    const LonePlant shallow(file_of_language("homomorphism"), {{"DEPTH", "2"}});
     CHECK(shallow.interpretation.geometry.polygons.empty());
-    const LonePlant half(file("homomorphism"), {{"DEPTH", "4"}});
+    const LonePlant half(file_of_language("homomorphism"), {{"DEPTH", "4"}});
     CHECK(half.interpretation.geometry.polygons.size() == 3 * 1 * 2);
 }
 
 TEST_CASE("Contexts: a named branch holds what is named, with = at least that", "[language]") {
-    LonePlant string(file("contexts"));
+    LonePlant string(file_of_language("contexts"));
     string.grow(1);
     CHECK(string.text() == "1[C]F2[C[D]E]F3[C[D]E]FCD45AF");
 }
 
 TEST_CASE("Cut: a branch is whole until it is shed, and then gone", "[language]") {
-    LonePlant shoot(file("cut"));
+    LonePlant shoot(file_of_language("cut"));
     for (int step = 1; step <= 20; ++step) {
         shoot.grow(1);
         CHECK(shoot.counts()["I"] == step);
@@ -132,14 +132,14 @@ TEST_CASE("Cut: a branch is whole until it is shed, and then gone", "[language]"
 }
 
 TEST_CASE("Named modules are matched whole; constants are what they say", "[language]") {
-    LonePlant string(file("named-modules"));
+    LonePlant string(file_of_language("named-modules"));
     CHECK(string.text() == "Root(137.508,6.28319)R(1)Ro(2)芽");
     string.grow(2);
     CHECK(string.text() == "Root(137.508,6.28319)R(100)Ro(4)/(137.508)葉/(137.508)葉芽");
 }
 
 TEST_CASE("Binary counter: once the carries have settled the digits are the number", "[language]") {
-    LonePlant counter(file("binary-counter"));
+    LonePlant counter(file_of_language("binary-counter"));
     for (int step = 1; step <= 80; ++step) {
         counter.grow(1);
         if (counter.counts()["Carry"] > 0) continue;
@@ -157,7 +157,7 @@ TEST_CASE("Binary counter: once the carries have settled the digits are the numb
 }
 
 TEST_CASE("Stopping: the ball comes to rest, and the derivation with it", "[language]") {
-    LonePlant ball(file("stopping"));
+    LonePlant ball(file_of_language("stopping"));
     int steps = 0;
     for (; steps < 10'000 && !ball.derivation.stopped(); ++steps) ball.grow(1);
     CHECK(ball.derivation.stopped());
@@ -175,7 +175,7 @@ TEST_CASE("Stopping: the ball comes to rest, and the derivation with it", "[lang
 }
 
 TEST_CASE("Queries: every answer is the pose of a turtle of one's own", "[language]") {
-    LonePlant tendril(file("queries"));
+    LonePlant tendril(file_of_language("queries"));
     double lowest = 0;
     bool stopped = false;
     for (int step = 1; step <= 60; ++step) {
@@ -212,7 +212,7 @@ TEST_CASE("Queries: every answer is the pose of a turtle of one's own", "[langua
 }
 
 TEST_CASE("Table: internodes are as long as the file says, and as many", "[language]") {
-    LonePlant shoot(file("table/growth"));
+    LonePlant shoot(file_of_language("table/growth"));
     shoot.grow(14);
     const std::vector<double> expected{0.45, 0.62, 0.88, 1.10, 1.26, 1.21, 1.02, 0.81, 0.66, 0.41, 0.30, 0.18};
     const auto& segments = shoot.interpretation.geometry.internodes;
@@ -223,7 +223,7 @@ TEST_CASE("Table: internodes are as long as the file says, and as many", "[langu
 }
 
 TEST_CASE("Labels: one for each internode, with the values it was given", "[language]") {
-    LonePlant shoot(file("labels"));
+    LonePlant shoot(file_of_language("labels"));
     shoot.grow(5);
     const auto& labels = shoot.interpretation.geometry.labels;
     REQUIRE(labels.size() == 5);
@@ -239,8 +239,8 @@ TEST_CASE("Preprocessor: an included leaf, opposite or alternate, wide or narrow
         const auto first = twig.interpretation.geometry.vertices.begin() + polygon.first;
         return glm::length(first[1] - first[3]);
     };
-    LonePlant alternate(file("shared/twig"));
-    LonePlant opposite(file("shared/twig"), {{"OPPOSITE", "1"}, {"SHAPE", "2"}});
+    LonePlant alternate(file_of_language("shared/twig"));
+    LonePlant opposite(file_of_language("shared/twig"), {{"OPPOSITE", "1"}, {"SHAPE", "2"}});
     alternate.grow(8);
     opposite.grow(8);
     CHECK(alternate.counts()["L"] == 8);
@@ -253,7 +253,7 @@ namespace {
 
 /// The n-th L-system of a model's file on its own, grown by so many steps, as text.
 std::string alone(const std::string& name, int system, int steps) {
-    std::ifstream in(source_path(file(name)));
+    std::ifstream in(source_path(file_of_language(name)));
     std::string text(std::istreambuf_iterator<char>(in), {});
     std::size_t begin = text.find("lsystem: " + std::to_string(system));
     text = text.substr(begin, text.find("endlsystem", begin) - begin) + "endlsystem\n";
@@ -290,7 +290,7 @@ double height_between(const PlantGeometry& geometry, double left, double right) 
 }  // namespace
 
 TEST_CASE("Species: each is what its own L-system makes alone, drawn at its scale", "[language]") {
-    LonePlant grove(file("species/grove"));
+    LonePlant grove(file_of_language("species/grove"));
     for (int step = 1; step <= 7; ++step) {
         grove.grow(1);
         const auto species = parts(grove.text());
@@ -305,7 +305,7 @@ TEST_CASE("Species: each is what its own L-system makes alone, drawn at its scal
 }
 
 TEST_CASE("Compound leaf: a leaf made k steps ago is its own L-system after k steps; all turn at once", "[language]") {
-    LonePlant plant(file("species/compound-leaf"));
+    LonePlant plant(file_of_language("species/compound-leaf"));
     for (int step = 1; step <= 16; ++step) {
         plant.grow(1);
         const auto leaves = parts(plant.text());
@@ -331,7 +331,7 @@ TEST_CASE("Compound leaf: a leaf made k steps ago is its own L-system after k st
 TEST_CASE("Shoot: lengths and angles are the values of the function set", "[language]") {
     const View view = read_view_file(source_path("models/language/shoot/shoot.v"));
     CHECK(view.function_names == Defines{{"INTERNODE", "1"}, {"BRANCH", "2"}, {"ANGLE", "3"}});
-    LonePlant shoot(view, file("shoot/shoot"));
+    LonePlant shoot(view, file_of_language("shoot/shoot"));
     shoot.grow(30);
     REQUIRE(view.resources);
     const auto& functions = view.resources->functions;
@@ -367,7 +367,7 @@ TEST_CASE("Shoot: the frames of the object are those its animation file asks for
 
 TEST_CASE("Scale: of every order, lengths and widths alike, and back again", "[language]") {
     for (const double ratio : {0.5, 0.6}) {
-        LonePlant plant(file("scale"), {{"RATIO", std::to_string(ratio)}});
+        LonePlant plant(file_of_language("scale"), {{"RATIO", std::to_string(ratio)}});
         plant.grow(4);
         const auto& segments = plant.interpretation.geometry.internodes;
         REQUIRE(segments.size() == 2 * (1 + 4 + 16 + 64) + 1);
@@ -382,7 +382,7 @@ TEST_CASE("Scale: of every order, lengths and widths alike, and back again", "[l
 
 TEST_CASE("Protocol: the file a model writes lies in the run's folder, with a line for every step", "[language]") {
     const Workplace workplace;
-    const std::string model = source_path(file("protocol")).string();
+    const std::string model = source_path(file_of_language("protocol")).string();
     REQUIRE(workplace.run("run '" + model + "' --output out --quiet").code == 0);
     std::ifstream in(workplace.path() / "out" / "files" / "buds.txt");
     const std::string text(std::istreambuf_iterator<char>(in), {});
@@ -394,7 +394,7 @@ TEST_CASE("Liana: nodes on the curve, a segment apart, as long together as the c
     REQUIRE(view.resources);
     REQUIRE(view.resources->curves.size() == 1);
     const SpaceCurve& curve = view.resources->curves[0];
-    LonePlant liana(view, file("spiral/liana"));
+    LonePlant liana(view, file_of_language("spiral/liana"));
     liana.grow(40);
     const auto& segments = liana.interpretation.geometry.internodes;
     REQUIRE(segments.size() == 40);

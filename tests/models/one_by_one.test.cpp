@@ -15,7 +15,7 @@ namespace {
 constexpr int most_steps = 12;
 constexpr std::size_t longest = 100'000;
 
-std::vector<std::filesystem::path> models() {
+std::vector<std::filesystem::path> every_model() {
     std::vector<std::filesystem::path> paths;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(ESPALIER_SOURCE_DIR "/models")) {
         if (entry.path().extension() == ".l") paths.push_back(entry.path());
@@ -36,7 +36,7 @@ Derivation derivation_of(const std::shared_ptr<const CompiledModel>& model, bool
 
 TEST_CASE("every model of the library grows as it does one module after the other", "[library]") {
     std::size_t compared = 0;
-    for (const std::filesystem::path& path : models()) {
+    for (const std::filesystem::path& path : every_model()) {
         INFO(path);
         const auto compiled = compile(read_model(path));
         Derivation derivation = derivation_of(compiled, false), reference = derivation_of(compiled, true);

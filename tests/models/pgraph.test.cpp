@@ -22,7 +22,7 @@ using namespace espalier;
 
 namespace {
 
-constexpr double golden_angle = 137.50776405003785;
+constexpr double golden_divergence = 137.50776405003785;
 const glm::dvec3 heading{0, 1, 0};
 
 /// What a graph of a few lines draws at the end.
@@ -150,7 +150,7 @@ TEST_CASE("Phiball: the golden angle from one to the next, as many in every band
     for (const auto& [band, count] : bands) CHECK(count == 40);
     for (std::size_t i = 0; i + 1 < 400; ++i) {
         const double step = onward(azimuth(poses[i].position), azimuth(poses[i + 1].position));
-        CHECK(std::min(step, 360 - step) == Approx(golden_angle).margin(1e-6));
+        CHECK(std::min(step, 360 - step) == Approx(golden_divergence).margin(1e-6));
     }
     CHECK(smallest / (nearest_sum / 400) > 0.9);
 }
@@ -483,7 +483,7 @@ TEST_CASE("The sunflower and the pineapple: organs a golden angle apart", "[pgra
     REQUIRE(eyes.size() == 130);
     for (std::size_t k = 0; k + 1 < eyes.size(); ++k) {
         const double step = onward(azimuth(eyes[k]), azimuth(eyes[k + 1]));
-        CHECK(std::min(step, 360 - step) == Approx(golden_angle).margin(1e-6));
+        CHECK(std::min(step, 360 - step) == Approx(golden_divergence).margin(1e-6));
     }
     std::set<int> differences;
     for (int k = 55; k < 75; ++k) {

@@ -4,7 +4,7 @@
 #include "espalier/base/error.h"
 
 #include "catch.h"
-#include "picture/files/off_screen.h"
+#include "picture/pictures.h"
 #include "temporary_folder.h"
 
 #include <vtkImageData.h>
@@ -64,12 +64,6 @@ ChartPage waves() {
         page.charts.push_back(std::move(chart));
     }
     return page;
-}
-
-bool can_draw() {
-    const std::string reason = why_no_pictures();
-    if (!reason.empty()) WARN("skipped: " << reason);
-    return reason.empty();
 }
 
 /// How many pixels of a picture have this colour.

@@ -12,7 +12,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const char* const model = R"(/* A row of internodes. */
+const char* const model_of_expressions = R"(/* A row of internodes. */
 #define WIDTH 6    /* width; 1..20; m */
 #define GNARLY 0.5 /* how crooked; 0..1 */
 #define ON 0
@@ -28,8 +28,8 @@ endlsystem
 
 struct ScenesOfRows {
     ScenesOfRows() {
-        folder.write("row.l", model);
-        folder.write("other.l", std::string("#define LEAN 0\n") + model);
+        folder.write("row.l", model_of_expressions);
+        folder.write("other.l", std::string("#define LEAN 0\n") + model_of_expressions);
     }
     Scene read(const std::string& text, const SceneOptions& options = {}) const {
         return read_scene_text(text, "scene.toml", folder.path(), options);

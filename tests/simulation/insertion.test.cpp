@@ -17,11 +17,11 @@ using espalier::simulation::read_insertion;
 namespace {
 
 /// X climbs from internode to internode; `@c` has a letter that is one of the turtle's.
-const char* const model =
+const char* const model_of_insertion =
     "lsystem: 1\nderivation length: 6\naxiom: A\nA --> F[-(30)F]A\nX(n) > F --> \nX(n) < F --> FX(n + 1)\n"
     "F --> F@c(1)\nendlsystem\n";
 
-Scene scene_with(const std::string& insertions, const std::string& text = model) {
+Scene scene_with(const std::string& insertions, const std::string& text = model_of_insertion) {
     TemporaryFolder folder;
     folder.write("plant.l", text);
     return read_scene_text("[[plant]]\nmodel = 'plant.l'\ninsert = [" + insertions + "]\n", "scene.toml",

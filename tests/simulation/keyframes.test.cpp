@@ -16,7 +16,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const char* const model = R"(#define SIZE 1   /* of a segment; 0..10; m */
+const char* const model_of_keyframes = R"(#define SIZE 1   /* of a segment; 0..10; m */
 #define COUNT 3  /* of segments; 0..100 */
 lsystem: 1
 derivation length: 4
@@ -30,7 +30,7 @@ endlsystem
 
 class Scenes {
 public:
-    Scenes() { folder_.write("plant.l", model); }
+    Scenes() { folder_.write("plant.l", model_of_keyframes); }
 
     Scene scene(const std::string& plant) const {
         return read_scene_text("[[plant]]\nmodel = 'plant.l'\n" + plant, "scene.toml", folder_.path());

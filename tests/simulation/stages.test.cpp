@@ -17,7 +17,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const char* const model = R"(environment light;
+const char* const model_of_stages = R"(environment light;
 lsystem: 1
 seed: 3
 derivation length: 10
@@ -49,7 +49,7 @@ thickest = 0.01
 
 class Staged {
 public:
-    Staged() { folder_.write("plant.l", model); }
+    Staged() { folder_.write("plant.l", model_of_stages); }
 
     Scene scene(const std::string& plant) const {
         return read_scene_text("[[plant]]\nmodel = 'plant.l'\npositions = [[0, 0, 0], [1, 0, 0]]\n" + plant +

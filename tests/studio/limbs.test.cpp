@@ -13,10 +13,10 @@ using namespace studio_test;
 
 namespace {
 
-const char* const scene = "[[plant]]\nmodel = \"tree.l\"\nview = \"tree.v\"\n";
+const char* const scene_of_limbs = "[[plant]]\nmodel = \"tree.l\"\nview = \"tree.v\"\n";
 
 // A trunk with bark and two limbs.
-const char* const tree = R"(lsystem: 1
+const char* const tree_of_limbs = R"(lsystem: 1
 derivation length: 1
 axiom: @Tx(1) !(0.2) F(2) [ +(40) !(0.14) F(1) ] [ -(40) !(0.14) F(1) ] @L("%d limbs", 3)
 endlsystem
@@ -135,8 +135,8 @@ TEST_CASE("a smooth skin is closed, and as large as the limbs below it", "[studi
 }
 
 TEST_CASE("limbs that wear bark name the pictures of its colours and its relief", "[studio]") {
-    OpenStudio studio(scene, "scene.toml");
-    studio.folder.write("tree.l", tree);
+    OpenStudio studio(scene_of_limbs, "scene.toml");
+    studio.folder.write("tree.l", tree_of_limbs);
     studio.folder.write("tree.v", "texture: F: rough.bark\nline style: cylinder\n");
     studio.folder.write("rough.bark", "size = 32\n");
     ListeningPage& page = studio.begin();
@@ -156,7 +156,7 @@ TEST_CASE("limbs that wear bark name the pictures of its colours and its relief"
 }
 
 TEST_CASE("labels travel with their places and texts", "[studio]") {
-    OpenStudio studio(tree);
+    OpenStudio studio(tree_of_limbs);
     ListeningPage& page = studio.begin();
     studio.wait_until_grown();
     const std::string& packet = page.packets.back();
@@ -167,7 +167,7 @@ TEST_CASE("labels travel with their places and texts", "[studio]") {
 }
 
 TEST_CASE("of several wishes the last one counts", "[studio]") {
-    OpenStudio studio(tree);
+    OpenStudio studio(tree_of_limbs);
     ListeningPage& page = studio.begin();
     studio.wait_until_grown();
     const Json growth = page.last("growth")["growth"];
@@ -179,7 +179,7 @@ TEST_CASE("of several wishes the last one counts", "[studio]") {
 }
 
 TEST_CASE("limbs of a step that has not been grown, or of another growth, are refused", "[studio]") {
-    OpenStudio studio(tree);
+    OpenStudio studio(tree_of_limbs);
     ListeningPage& page = studio.begin();
     studio.wait_until_grown();
     const Json growth = page.last("growth")["growth"];

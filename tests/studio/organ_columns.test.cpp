@@ -19,7 +19,7 @@ L --> { . f(0.1) . +(90) f(0.1) . +(90) f(0.1) . }
 endlsystem
 )";
 
-const char* const scene = R"([[plant]]
+const char* const scene_of_columns = R"([[plant]]
 model = "plant.l"
 [environment.light]
 process = "canopy-light"
@@ -30,7 +30,7 @@ organs = ["light.front", "light.brightest"]
 )";
 
 struct OpenLadder : OpenStudio {
-    OpenLadder() : OpenStudio(ladder) { options.opened.path = folder.write("scene.toml", scene); }
+    OpenLadder() : OpenStudio(ladder) { options.opened.path = folder.write("scene.toml", scene_of_columns); }
 
     /// A value for each module.
     std::vector<float> column(int step, const std::string& name) {

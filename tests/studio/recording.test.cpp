@@ -5,7 +5,7 @@ using namespace studio_test;
 
 namespace {
 
-const char* const tree = R"(#define LENGTH 2
+const char* const recorded_tree = R"(#define LENGTH 2
 lsystem: 1
 derivation length: 4
 axiom: !(0.1) A(1)
@@ -19,7 +19,7 @@ std::size_t internodes(const std::string& packet) {
 
 /// A studio with a run of the tree, five steps of six, every second recorded.
 struct OpenRun : OpenStudio {
-    OpenRun() : OpenStudio(tree) {
+    OpenRun() : OpenStudio(recorded_tree) {
         folder.write("scene.toml",
                      "[[plant]]\nmodel = \"plant.l\"\n[timeline]\nevery = 2\nparameters = { length = \"F.1\" }\n");
         record(folder.path() / "scene.toml", 5, folder.path() / "run");
@@ -98,20 +98,20 @@ TEST_CASE("limbs of a recorded run are where those of its growth are", "[studio]
         return limbs.substr(28 + 12 * ranges, 12 * vertices);
     };
     OpenRun recorded;
-    OpenStudio grown(tree);
+    OpenStudio grown(recorded_tree);
     CHECK(positions(recorded) == positions(grown));
 }
 
 TEST_CASE("to change a recorded run is to grow what it grew from, and undo goes back to it", "[studio]") {
     OpenRun studio;
-    studio.folder.write("plant.l", std::string("/* has changed since */\n") + tree);
+    studio.folder.write("plant.l", std::string("/* has changed since */\n") + recorded_tree);
     ListeningPage& page = studio.begin();
     studio.wait_until_grown();
     // The texts are those of the run.
     const Json texts = page.last("document")["texts"];
     REQUIRE(texts.size() == 2);
     CHECK(texts[0]["role"] == "main");
-    CHECK(texts[1]["content"] == tree);
+    CHECK(texts[1]["content"] == recorded_tree);
     CHECK(texts[1]["changed"] == true);
     CHECK(page.last("document")["settings"][0]["name"] == "timeline.every");
 

@@ -155,7 +155,7 @@ std::vector<fs::path> library() {
     return files;
 }
 
-const char* const tree = R"(#define ANGLE 30
+const char* const redrawn_tree = R"(#define ANGLE 30
 #define RATIO 0.9
 #define COLOUR 3
 lsystem: 1
@@ -187,13 +187,14 @@ TEST_CASE("a growth lets go of the steps of the one before it", "[studio]") {
 
 TEST_CASE("angles, colours and pictures of modules change without a step of derivation", "[studio]") {
     const TemporaryFolder folder;
-    Grower grower(folder.write("tree.l", tree));
-    const auto first = grower.grow(tree, nullptr, 6, 0);
+    Grower grower(folder.write("tree.l", redrawn_tree));
+    const auto first = grower.grow(redrawn_tree, nullptr, 6, 0);
     REQUIRE(first->is_whole);
     CHECK(first->watcher.derived == 7);
     for (const std::string& text :
-         {with(tree, "ANGLE 30", "ANGLE 45.5"), with(tree, "COLOUR 3", "COLOUR 7"), with(tree, "@o(0.1)", "@o(0.3)"),
-          with(tree, "-(ANGLE)", "-(ANGLE*2)"), with(tree, "derivation", "/* a remark */ derivation")}) {
+         {with(redrawn_tree, "ANGLE 30", "ANGLE 45.5"), with(redrawn_tree, "COLOUR 3", "COLOUR 7"),
+          with(redrawn_tree, "@o(0.1)", "@o(0.3)"), with(redrawn_tree, "-(ANGLE)", "-(ANGLE*2)"),
+          with(redrawn_tree, "derivation", "/* a remark */ derivation")}) {
         INFO(text);
         const auto redrawn = grower.grow(text, first->growth.get(), 6);
         const auto anew = grower.grow(text, nullptr, 6, 0);
@@ -202,18 +203,18 @@ TEST_CASE("angles, colours and pictures of modules change without a step of deri
         check_same(*redrawn, *anew);
     }
     // What is drawn again can be gone on from, and be drawn again.
-    const auto turned = grower.grow(with(tree, "ANGLE 30", "ANGLE 60"), first->growth.get(), 6);
-    const auto longer = grower.grow(with(tree, "ANGLE 30", "ANGLE 80"), turned->growth.get(), 8);
+    const auto turned = grower.grow(with(redrawn_tree, "ANGLE 30", "ANGLE 60"), first->growth.get(), 6);
+    const auto longer = grower.grow(with(redrawn_tree, "ANGLE 30", "ANGLE 80"), turned->growth.get(), 8);
     REQUIRE(longer->is_whole);
     CHECK(longer->watcher.derived == 2);
-    check_same(*longer, *grower.grow(with(tree, "ANGLE 30", "ANGLE 80"), nullptr, 8, 0));
-    const auto back = grower.grow(tree, longer->growth.get(), 3);
+    check_same(*longer, *grower.grow(with(redrawn_tree, "ANGLE 30", "ANGLE 80"), nullptr, 8, 0));
+    const auto back = grower.grow(redrawn_tree, longer->growth.get(), 3);
     CHECK(back->watcher.derived == 0);
-    check_same(*back, *grower.grow(tree, nullptr, 3, 0));
+    check_same(*back, *grower.grow(redrawn_tree, nullptr, 3, 0));
 }
 
 TEST_CASE("contexts that skip the end of a branch are compared", "[studio]") {
-    const std::string text = with(tree, "A(l) -->", "A(l) > [+=] A(m) --> A(l)\nA(l) -->");
+    const std::string text = with(redrawn_tree, "A(l) -->", "A(l) > [+=] A(m) --> A(l)\nA(l) -->");
     const TemporaryFolder folder;
     Grower grower(folder.write("tree.l", text));
     const auto first = grower.grow(text, nullptr, 6, 0);
@@ -224,16 +225,17 @@ TEST_CASE("contexts that skip the end of a branch are compared", "[studio]") {
 
 TEST_CASE("what derivation reads is derived again", "[studio]") {
     const TemporaryFolder folder;
-    Grower grower(folder.write("tree.l", tree));
-    const auto first = grower.grow(tree, nullptr, 6, 0);
-    for (const std::string& text :
-         {with(tree, "RATIO 0.9", "RATIO 0.8"), with(tree, "A(1)", "A(2)"), with(tree, "] ~L", "] ~L ~L"),
-          with(tree, "-(ANGLE)", "-(ANGLE*l)"), with(tree, "] ~L", "] ?P(0,0,0) ~L"),
-          // One constant becomes two: their modules cannot be told apart.
-          with(with(tree, "] ~L", "] +(30) ~L"), "ANGLE 30", "ANGLE 30.5")}) {
+    Grower grower(folder.write("tree.l", redrawn_tree));
+    const auto first = grower.grow(redrawn_tree, nullptr, 6, 0);
+    for (const std::string& text : {with(redrawn_tree, "RATIO 0.9", "RATIO 0.8"), with(redrawn_tree, "A(1)", "A(2)"),
+                                    with(redrawn_tree, "] ~L", "] ~L ~L"), with(redrawn_tree, "-(ANGLE)", "-(ANGLE*l)"),
+                                    with(redrawn_tree, "] ~L", "] ?P(0,0,0) ~L"),
+                                    // One constant becomes two: their modules cannot be told apart.
+                                    with(with(redrawn_tree, "] ~L", "] +(30) ~L"), "ANGLE 30", "ANGLE 30.5")}) {
         INFO(text);
-        const std::string before = text.find("+(30)") == std::string::npos ? tree : with(tree, "] ~L", "] +(30) ~L");
-        const auto there = before == tree ? nullptr : grower.grow(before, nullptr, 6, 0);
+        const std::string before =
+            text.find("+(30)") == std::string::npos ? redrawn_tree : with(redrawn_tree, "] ~L", "] +(30) ~L");
+        const auto there = before == redrawn_tree ? nullptr : grower.grow(before, nullptr, 6, 0);
         const auto grown = grower.grow(text, there ? there->growth.get() : first->growth.get(), 6);
         REQUIRE(grown->is_whole);
         CHECK(grown->watcher.derived == 7);

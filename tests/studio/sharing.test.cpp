@@ -7,20 +7,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char* const model =
+const char* const shared_model =
     "#define LENGTH 2\nlsystem: 1\nderivation length: 3\naxiom: A\nA --> F(LENGTH)A\nendlsystem\n";
-const char* const scene = "[[plant]]\nmodel = \"../models/stalk.l\"\nview = \"view.v\"\n";
+const char* const shared_scene = "[[plant]]\nmodel = \"../models/stalk.l\"\nview = \"view.v\"\n";
 
 /// A library with a scene, its model and a view file, and a folder of one's own that is open.
-struct Shelf : OpenStudio {
-    Shelf() : OpenStudio(model, "own.l") {
+struct SharedShelf : OpenStudio {
+    SharedShelf() : OpenStudio(shared_model, "own.l") {
         fs::create_directories(library.path() / "models");
         fs::create_directories(library.path() / "environments");
-        library.write("models/stalk.l", model);
+        library.write("models/stalk.l", shared_model);
         library.write("environments/view.v", "angle increment: 30\n");
         options.library_folder = library.path();
         options.library = [this] { return std::vector<espalier::studio::LibraryEntry>{{scene_file, "stalk", ""}}; };
-        scene_file = library.write("environments/stalk.toml", scene);
+        scene_file = library.write("environments/stalk.toml", shared_scene);
         options.opened.path = scene_file;
     }
 
@@ -31,7 +31,7 @@ struct Shelf : OpenStudio {
 }  // namespace
 
 TEST_CASE("a link names what comes with the program, and holds what was changed", "[studio]") {
-    Shelf studio;
+    SharedShelf studio;
     ListeningPage& page = studio.begin();
     studio.wait_until_grown();
     studio.change({{"settings", {{"stalk.l:LENGTH", "3"}}}, {"seed", 7}});
@@ -58,33 +58,33 @@ TEST_CASE("a link names what comes with the program, and holds what was changed"
 }
 
 TEST_CASE("a model alone becomes one file of a folder of its own", "[studio]") {
-    Shelf studio;
+    SharedShelf studio;
     studio.options.opened.path = studio.file;
     ListeningPage& page = studio.begin();
     studio.wait_until_grown();
     Json shared = studio.ask({{"do", "share"}});
     CHECK(shared["main"] == "own.l");
-    CHECK(shared["files"] == Json::array({{{"path", "own.l"}, {"content", model}}}));
+    CHECK(shared["files"] == Json::array({{{"path", "own.l"}, {"content", shared_model}}}));
     for (const char* const place : {"shared/own/own.l", "shared/own-2/own.l"}) {
         shared["do"] = "read-link";
         const Json contents = studio.ask(shared);
         CHECK(contents["folder"] == (studio.folder.path() / place).parent_path().string());
         CHECK(contents["files"] ==
-              Json::array({{{"path", "own.l"}, {"bytes", std::string(model).size()}, {"library", nullptr}}}));
+              Json::array({{{"path", "own.l"}, {"bytes", std::string(shared_model).size()}, {"library", nullptr}}}));
         CHECK_FALSE(fs::exists(studio.folder.path() / place));
         shared["do"] = "open-text";
         studio.ask(shared);
         studio.wait_until_grown();
         CHECK(page.last("document")["path"] == (studio.folder.path() / place).string());
-        CHECK(text_of(studio.folder.path() / place) == model);
+        CHECK(text_of(studio.folder.path() / place) == shared_model);
     }
 }
 
 TEST_CASE("a link that leads out of the folder, or needs another library, is refused and writes nothing", "[studio]") {
-    Shelf studio;
+    SharedShelf studio;
     studio.begin();
     studio.wait_until_grown();
-    const Json good = {{"path", "a.l"}, {"content", model}};
+    const Json good = {{"path", "a.l"}, {"content", shared_model}};
     const auto refusal = [&](const std::string& main, const Json& files) {
         const Json reply = studio.ask({{"do", "open-text"}, {"main", main}, {"files", files}});
         return reply.value("error", "");

@@ -30,7 +30,7 @@ vtkSmartPointer<vtkPolyData> recorded(const HandmadePlant& plant, const Palette*
     return read_vtp(folder.path / "plants/0000.vtp");
 }
 
-std::vector<double> values(vtkFieldData* data, const char* name) {
+std::vector<double> values_named(vtkFieldData* data, const char* name) {
     vtkDataArray* array = data->GetArray(name);
     REQUIRE(array);
     std::vector<double> result;
@@ -113,28 +113,28 @@ TEST_CASE("a surface is written as its patches, placed and stretched along left,
     CHECK(bounds[1] == Approx(1.5));
     CHECK(bounds[3] == Approx(12));
     CHECK(worst_normal(data) > 0.999);
-    CHECK(values(data->GetCellData(), "identity") == std::vector<double>(8, 5));
+    CHECK(values_named(data->GetCellData(), "identity") == std::vector<double>(8, 5));
 }
 
 TEST_CASE("patches have their own colours, or the turtle's", "[timeline]") {
     const auto data = recorded(leafy_plant({1, 1, 1}));
-    CHECK(values(data->GetCellData(), "colour") == std::vector<double>{3, 3, 3, 3, 9, 9, 9, 9});
-    CHECK(values(data->GetCellData(), "back_colour") == std::vector<double>{4, 4, 4, 4, 8, 8, 8, 8});
-    CHECK(values(data->GetPointData(), "colour")[17] == 9);
+    CHECK(values_named(data->GetCellData(), "colour") == std::vector<double>{3, 3, 3, 3, 9, 9, 9, 9});
+    CHECK(values_named(data->GetCellData(), "back_colour") == std::vector<double>{4, 4, 4, 4, 8, 8, 8, 8});
+    CHECK(values_named(data->GetPointData(), "colour")[17] == 9);
 }
 
 TEST_CASE("with materials, patches have the turtle's colour, as in cpfg", "[timeline]") {
     Palette materials;
     materials.of_materials = true;
     const auto data = recorded(leafy_plant({1, 1, 1}), &materials);
-    for (const double colour : values(data->GetCellData(), "colour")) CHECK(colour == 3);
-    for (const double colour : values(data->GetCellData(), "back_colour")) CHECK(colour == 4);
+    for (const double colour : values_named(data->GetCellData(), "colour")) CHECK(colour == 3);
+    for (const double colour : values_named(data->GetCellData(), "back_colour")) CHECK(colour == 4);
 }
 
 TEST_CASE("polygons have texture coordinates", "[timeline]") {
     HandmadePlant plant;
     plant.add_triangle(1);
-    const std::vector<double> uvs = values(recorded(plant)->GetPointData(), "TCoords");
+    const std::vector<double> uvs = values_named(recorded(plant)->GetPointData(), "TCoords");
     CHECK(*std::min_element(uvs.begin(), uvs.end()) == 0);
     CHECK(*std::max_element(uvs.begin(), uvs.end()) == 1);
 }
@@ -144,7 +144,7 @@ TEST_CASE("widths of lines in pixels are an array of their own", "[timeline]") {
     CHECK_FALSE(recorded(plant)->GetPointData()->GetArray("pixels"));
     plant.interpretation.geometry.in_pixels = true;
     for (Internode& internode : plant.interpretation.geometry.internodes) internode.pixels = 3;
-    CHECK(values(recorded(plant)->GetPointData(), "pixels") == std::vector<double>(5, 3));
+    CHECK(values_named(recorded(plant)->GetPointData(), "pixels") == std::vector<double>(5, 3));
 }
 
 TEST_CASE("a surface that a negative factor mirrors still agrees with its normals", "[timeline]") {
@@ -156,7 +156,7 @@ TEST_CASE("texture coordinates run over each patch, or over the whole surface if
     const auto uvs = [](std::uint16_t texture) {
         const auto data = recorded(leafy_plant({1, 1, 1}, texture));
         REQUIRE(data->GetPointData()->GetTCoords());
-        return values(data->GetPointData(), "TCoords");
+        return values_named(data->GetPointData(), "TCoords");
     };
     const auto each = uvs(1), whole = uvs(2);
     // Point 8 is s = t = 1 of the first patch: the middle of the surface's width.
@@ -170,8 +170,8 @@ TEST_CASE("texture coordinates run over each patch, or over the whole surface if
 TEST_CASE("textures are numbers into the files that the frame names", "[timeline]") {
     const auto data = recorded(leafy_plant({1, 1, 1}, 2));
     CHECK(texts(data, "texture_files") == std::vector<std::string>{"", "bark.png", "leaf.png"});
-    CHECK(values(data->GetCellData(), "texture") == std::vector<double>(8, 2));
-    CHECK(values(recorded(leafy_plant({1, 1, 1}, 7))->GetCellData(), "texture") == std::vector<double>(8, 0));
+    CHECK(values_named(data->GetCellData(), "texture") == std::vector<double>(8, 2));
+    CHECK(values_named(recorded(leafy_plant({1, 1, 1}, 7))->GetCellData(), "texture") == std::vector<double>(8, 0));
 }
 
 TEST_CASE("a generalized cylinder is triangles that belong to its control points", "[timeline]") {
@@ -187,10 +187,10 @@ TEST_CASE("a generalized cylinder is triangles that belong to its control points
     draw(cylinder, plant.interpretation.geometry);
     const auto data = recorded(plant);
     CHECK(data->GetNumberOfPolys() == 2 * 16 + 2 * 8);
-    const std::vector<double> identities = values(data->GetCellData(), "identity");
+    const std::vector<double> identities = values_named(data->GetCellData(), "identity");
     CHECK(std::count(identities.begin(), identities.end(), 101) == 24);
     CHECK(std::count(identities.begin(), identities.end(), 102) == 24);
-    CHECK(values(data->GetCellData(), "kind") == std::vector<double>(48, 4));
+    CHECK(values_named(data->GetCellData(), "kind") == std::vector<double>(48, 4));
     CHECK(data->GetNumberOfPoints() == 3 * 9 + 2 * 10);
     CHECK(worst_normal(data) > 0.92);
     int across = 0;
@@ -206,8 +206,8 @@ TEST_CASE("labels are points, and the frame holds their texts in order", "[timel
     plant.interpretation.geometry.labels.push_back({2, 1, 4, {0, 1, 0}, "zweiter \xC3\xBC & <b>"});
     const auto data = recorded(plant);
     CHECK(data->GetNumberOfVerts() == 2);
-    CHECK(values(data->GetCellData(), "kind") == std::vector<double>{6, 6, 1, 1});
-    CHECK(values(data->GetCellData(), "identity") == std::vector<double>{1, 2, 1, 2});
+    CHECK(values_named(data->GetCellData(), "kind") == std::vector<double>{6, 6, 1, 1});
+    CHECK(values_named(data->GetCellData(), "identity") == std::vector<double>{1, 2, 1, 2});
     CHECK(texts(data, "label_texts") == std::vector<std::string>{"first", "zweiter \xC3\xBC & <b>"});
 }
 
@@ -215,10 +215,10 @@ TEST_CASE("with a palette every cell and point has its author's colour", "[timel
     Palette palette;
     palette.entries[256 + 3] = {{0, 0, 0, 1}, {0.2, 0.4, 1, 1}, {0, 0, 0, 1}, {0.2, 0, 0.5, 1}, 0};
     const auto data = recorded(leafy_plant({1, 1, 1}), &palette);
-    const std::vector<double> rgb = values(data->GetCellData(), "rgb");
+    const std::vector<double> rgb = values_named(data->GetCellData(), "rgb");
     REQUIRE(rgb.size() == 3 * 8);
     CHECK(std::vector<double>(rgb.begin(), rgb.begin() + 3) == std::vector<double>{102, 102, 255});
-    CHECK(values(data->GetPointData(), "rgb").size() == 3 * 18);
+    CHECK(values_named(data->GetPointData(), "rgb").size() == 3 * 18);
     CHECK_FALSE(recorded(leafy_plant({1, 1, 1}))->GetCellData()->GetArray("rgb"));
 }
 
@@ -241,7 +241,7 @@ TEST_CASE("a polygon has the normal of its plane at every vertex", "[timeline]")
     HandmadePlant plant;
     plant.add_triangle(1);
     const auto data = recorded(plant);
-    CHECK(values(data->GetPointData(), "Normals") == std::vector<double>{0, 0, 1, 0, 0, 1, 0, 0, 1});
+    CHECK(values_named(data->GetPointData(), "Normals") == std::vector<double>{0, 0, 1, 0, 0, 1, 0, 0, 1});
 }
 
 TEST_CASE("a polygon that bends inward is cut into triangles that cover it once, facing as it does", "[timeline]") {

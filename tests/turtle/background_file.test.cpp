@@ -13,7 +13,7 @@ using namespace espalier;
 
 namespace {
 
-bool near(const glm::dvec3& a, const glm::dvec3& b) {
+bool near_place(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::distance(a, b) < 1e-5;
 }
 
@@ -43,8 +43,8 @@ TEST_CASE("transformations of a background apply before those that stand there",
     const Background background = background_of(moved + "pushmatrix multmatrix 1 0 0 0 0 2 0 0 0 0 3 0 5 6 7 1\n" +
                                                 corner + "popmatrix\n" + corner);
     REQUIRE(background.vertices.size() == 6);
-    CHECK(near(background.vertices[0].position, {2, 6, 10}));
-    CHECK(near(background.vertices[5].position, {10, 1, 0}));
+    CHECK(near_place(background.vertices[0].position, {2, 6, 10}));
+    CHECK(near_place(background.vertices[5].position, {10, 1, 0}));
     CHECK(background.pieces.size() == 1);
 }
 
@@ -75,14 +75,14 @@ TEST_CASE("meshes and rectangles of a background have the normals their order gi
     const Background mesh = background_of("mesh 0 0 0  0 0 1  1 0 0  1 0 1  2 0 0  2 0 1");
     CHECK(mesh.triangles.size() == 12);
     // (P3 - P0) x (P2 - P1) = (1, 0, 1) x (1, 0, -1)
-    CHECK(near(mesh.vertices[0].normal, {0, 1, 0}));
+    CHECK(near_place(mesh.vertices[0].normal, {0, 1, 0}));
     const Background rectangle = background_of("rectangle 2 3 5 7");
-    CHECK(near(rectangle.vertices[0].position, {5, 7, 0}));
-    CHECK(near(rectangle.vertices[2].position, {7, 10, 0}));
-    CHECK(near(background_of("rectangle 2 3").vertices[0].position, {0, 0, 0}));
+    CHECK(near_place(rectangle.vertices[0].position, {5, 7, 0}));
+    CHECK(near_place(rectangle.vertices[2].position, {7, 10, 0}));
+    CHECK(near_place(background_of("rectangle 2 3").vertices[0].position, {0, 0, 0}));
     const Background normals = background_of("polygonuv 0 0 0 0 3 0  1 0 0 0 3 0  0 0 1 0 3 0");
-    CHECK(near(normals.vertices[1].normal, {0, 1, 0}));
-    CHECK(near(background_of("polygon 0 0 0 1 0 0 0 1 0").vertices[0].normal, {0, 0, 1}));
+    CHECK(near_place(normals.vertices[1].normal, {0, 1, 0}));
+    CHECK(near_place(background_of("polygon 0 0 0 1 0 0 0 1 0").vertices[0].normal, {0, 0, 1}));
 }
 
 TEST_CASE("a material of a background holds until the next, and only its complete groups count", "[turtle]") {

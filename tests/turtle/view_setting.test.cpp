@@ -12,7 +12,7 @@ using namespace espalier::turtle;
 
 namespace {
 
-View view_of(const std::string& text) {
+View view_told(const std::string& text) {
     return read_view_text(text, "a.v");
 }
 
@@ -46,14 +46,14 @@ TEST_CASE("every setting of view files says what it means", "[turtle]") {
 }
 
 TEST_CASE("the standard of a setting is what holds without it", "[turtle]") {
-    const View empty = view_of("");
+    const View empty = view_told("");
     int checked = 0;
     for (const ViewSetting& setting : view_settings()) {
         // A width without a word is one of polygons: it sets the line style too.
         if (setting.value.standard.empty() || setting.label == "initial line width:") continue;
         const std::string line = std::string(setting.label) + " " + std::string(setting.value.standard) + "\n";
         INFO(line);
-        const View view = view_of(line);
+        const View view = view_told(line);
         CHECK(view.diagnostics.empty());
         CHECK(same(view, empty));
         ++checked;
@@ -74,14 +74,14 @@ TEST_CASE("each word and each letter of a setting is one that is read", "[turtle
         }
         if (setting.value.kind == ViewKind::letters && setting.label != "texture:") {
             INFO(line);
-            CHECK(view_of(line).diagnostics.empty());
+            CHECK(view_told(line).diagnostics.empty());
         }
         std::string words(setting.value.words);
         for (std::size_t begin = 0, end; begin < words.size(); begin = end + 1) {
             end = std::min(words.find(' ', begin), words.size());
             const std::string one = std::string(setting.label) + " " + words.substr(begin, end - begin);
             INFO(one);
-            CHECK(view_of(one).diagnostics.empty());
+            CHECK(view_told(one).diagnostics.empty());
         }
     }
 }

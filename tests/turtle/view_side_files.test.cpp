@@ -57,7 +57,7 @@ struct Folder : TemporaryFolder {
 
 using Messages = std::vector<std::string>;
 
-bool near(const glm::dvec3& a, const glm::dvec3& b) {
+bool beside(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::distance(a, b) < 1e-5;
 }
 
@@ -75,11 +75,11 @@ TEST_CASE("a surface moves the turtle to its end point, as far as its first fact
         drawing.settings = view.turtle;
         return drawing.pose().position;
     };
-    CHECK(near(end("~a"), {1.5, 4.5, 6}));
-    CHECK(near(end("~a(2)"), {3, 9, 12}));
-    CHECK(near(end("~a(2,3,5)"), {3, 9, 12}));
-    CHECK(near(end("~b"), {-4.5, 1.5, 6}));
-    CHECK(near(end("~c"), {1.5, 7.42462, 1.06066}));
+    CHECK(beside(end("~a"), {1.5, 4.5, 6}));
+    CHECK(beside(end("~a(2)"), {3, 9, 12}));
+    CHECK(beside(end("~a(2,3,5)"), {3, 9, 12}));
+    CHECK(beside(end("~b"), {-4.5, 1.5, 6}));
+    CHECK(beside(end("~c"), {1.5, 7.42462, 1.06066}));
 }
 
 TEST_CASE("of the numbers behind a surface's size one is a texture, two a precision, three both", "[turtle]") {
@@ -101,7 +101,7 @@ TEST_CASE("of the numbers behind a surface's size one is a texture, two a precis
     CHECK(surfaces.at('d').precision_t == 10);
     CHECK(surfaces.at('d').texture == 5);
     CHECK_FALSE(surfaces.at('e').texture);
-    CHECK(near(surfaces.at('f').end, surfaces.at('a').end));  // a size that is none is 1
+    CHECK(beside(surfaces.at('f').end, surfaces.at('a').end));  // a size that is none is 1
     CHECK(folder.messages(view) == Messages{"F/a.v:4:1: warning: precision 20 is taken as 10: it goes from 1 to 10",
                                             "F/a.v:6:1: warning: surface 'a' is there already; this one is ignored"});
 }

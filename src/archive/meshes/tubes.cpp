@@ -15,7 +15,7 @@ namespace espalier::archive {
 namespace {
 
 /// How far a node lies from the straight and evenly tapering piece between two others.
-double deviation(const TubeNode& node, const TubeNode& from, const TubeNode& to) {
+double off_line(const TubeNode& node, const TubeNode& from, const TubeNode& to) {
     const glm::dvec3 a(from.position), along = glm::dvec3(to.position) - a, here = glm::dvec3(node.position) - a;
     const double square = glm::dot(along, along);
     const double share = square > 0 ? std::clamp(glm::dot(here, along) / square, 0.0, 1.0) : 0.0;
@@ -33,7 +33,7 @@ void mark(const std::vector<TubeNode>& nodes, std::size_t first, std::size_t las
         std::size_t worst = from;
         double most = tolerance;
         for (std::size_t i = from + 1; i < to; ++i) {
-            const double off = deviation(nodes[i], nodes[from], nodes[to]);
+            const double off = off_line(nodes[i], nodes[from], nodes[to]);
             if (off <= most) continue;
             most = off;
             worst = i;
@@ -214,7 +214,7 @@ std::vector<double> node_errors(const TubeLine& line, const FrameAttributes& of_
         std::size_t worst = from;
         double error = -1;
         for (std::size_t i = from + 1; i < to; ++i) {
-            double off = deviation(nodes[i], nodes[from], nodes[to]);
+            double off = off_line(nodes[i], nodes[from], nodes[to]);
             if (!same_look(of_points, nodes[i].point, nodes[i + 1].point)) off = std::max(off, double(nodes[i].radius));
             if (off <= error) continue;
             error = off;

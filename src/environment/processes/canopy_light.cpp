@@ -3,17 +3,16 @@
 // the spatial distribution of radiation absorption, transpiration and photosynthesis within canopies.
 #include "espalier/environment/environment_process.h"
 #include "espalier/environment/shape.h"
-#include "espalier/geometry/openvdb_grid.h"
 
 #include "base/parallel.h"
 #include "base/text.h"
 #include "environment/canopy/scattering.h"
 #include "environment/covering.h"
 #include "environment/optics/organ_light.h"
+#include "geometry/grids/voxel_values.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
-#include <openvdb/tools/Dense.h>
 
 #include <algorithm>
 #include <cmath>
@@ -256,15 +255,9 @@ private:
     }
 
     std::shared_ptr<const FieldGrid> grid_of(const std::vector<float>& values) const {
-        initialize_openvdb();
-        auto field = std::make_shared<FieldGrid>();
-        field->grid = openvdb::FloatGrid::create(0);
-        field->grid->setTransform(cell_centred_transform(edge_, voxels_.corner));
-        if (values.empty()) return field;
-        field->box = {openvdb::Coord(0), openvdb::Coord(voxels_.size.x - 1, voxels_.size.y - 1, voxels_.size.z - 1)};
-        const openvdb::tools::Dense<const float, openvdb::tools::LayoutXYZ> dense(field->box, values.data());
-        openvdb::tools::copyFromDense(dense, *field->grid, 0.0f);
-        return field;
+        VoxelValues light(edge_, voxels_.corner);
+        if (!values.empty()) light.fill(voxels_.size, values);
+        return light.grid();
     }
 
     std::string name_;

@@ -4,10 +4,10 @@
 // time: Brzoska 2019, Interaktive Pflanzenmodellierung, eq. 17.
 #include "espalier/base/math.h"
 #include "espalier/environment/environment_process.h"
-#include "espalier/geometry/openvdb_grid.h"
 
 #include "environment/markers/cloud.h"
 #include "environment/markers/colonization.h"
+#include "geometry/grids/voxel_values.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -159,18 +159,12 @@ private:
     }
 
     std::shared_ptr<const FieldGrid> grid() const {
-        initialize_openvdb();
-        auto field = std::make_shared<FieldGrid>();
-        field->grid = openvdb::FloatGrid::create(0);
-        field->grid->setTransform(cell_centred_transform(voxel_, {0, 0, 0}));
-        auto accessor = field->grid->getAccessor();
+        VoxelValues left(voxel_, {0, 0, 0});
         for (std::size_t i = 0; i < points_.points().size(); ++i) {
-            const glm::dvec3 voxel = glm::floor(points_.points()[i] / voxel_);
-            const openvdb::Coord at(static_cast<int>(voxel.x), static_cast<int>(voxel.y), static_cast<int>(voxel.z));
-            field->box.expand(at);  // the same in every step
-            accessor.setValue(at, accessor.getValue(at) + (points_.is_left(i) ? 1.0f : 0.0f));
+            // All points, so that a viewer is shown the same box in every step.
+            left.add(glm::ivec3(glm::floor(points_.points()[i] / voxel_)), points_.is_left(i) ? 1.0f : 0.0f);
         }
-        return field;
+        return left.grid();
     }
 
     std::string name_;

@@ -1,7 +1,6 @@
 // A solute in soil: transport, sorption, decay, fertiliser and uptake by roots.
 // Millington & Quirk 1961; van Leer 1974; Barber 1995; Schroeder et al. 2008. The rest is in src/environment/solutes/.
 #include "espalier/environment/environment_process.h"
-#include "espalier/geometry/openvdb_grid.h"
 
 #include "environment/soil/sink.h"
 #include "environment/solutes/solute_in_soil.h"
@@ -9,6 +8,7 @@
 #include "environment/water/field.h"
 #include "environment/water/solids.h"
 #include "environment/water/stock.h"
+#include "geometry/grids/voxel_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -137,15 +137,12 @@ private:
     /// The contents of a linear soil, whose voxels may be others.
     void find_water() {
         if (!water_) return;
-        const auto water = water_->current ? water_->current() : water_->grid;
-        const auto values = water->grid->getConstAccessor();
+        const VoxelReader water(water_->current ? water_->current() : water_->grid);
         const WaterGrid& grid = layout().grid();
         for (std::size_t row = 0; row < grid.rows(); ++row) {
             for (int x = 0; x < grid.size().x; ++x) {
                 const glm::dvec3 at = grid.centre({x, grid.y_of(row), grid.z_of(row)});
-                const auto index =
-                    openvdb::Coord::round(water->grid->transform().worldToIndex(openvdb::Vec3d(at.x, at.y, at.z)));
-                contents_[grid.row_begin(row) + x] = values.getValue(index);
+                contents_[grid.row_begin(row) + x] = water.value(at);
             }
         }
     }

@@ -2,12 +2,12 @@
 // plants. Chelle & Andrieu 1998, The nested radiosity model for the distribution of light within plant canopies, for
 // the question; Veach 1997, Robust Monte Carlo methods for light transport simulation, for the method.
 #include "espalier/environment/environment_process.h"
-#include "espalier/geometry/openvdb_grid.h"
 
 #include "base/text.h"
 #include "environment/optics/organ_light.h"
 #include "environment/rays/light_paths.h"
 #include "environment/sky/daylight.h"
+#include "geometry/grids/voxel_values.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -328,24 +328,20 @@ private:
     }
 
     std::shared_ptr<const FieldGrid> grid_of(std::size_t number) const {
-        initialize_openvdb();
         const LightSensor& sensor = paths_.sensors()[number];
         const double edge = sensor.size[0] / static_cast<double>(sensor.cells[0]);
-        auto field = std::make_shared<FieldGrid>();
-        field->grid = openvdb::FloatGrid::create(0);
         const glm::dvec3 corner = sensor.middle - glm::dvec3(sensor.size[0], edge, sensor.size[1]) / 2.0;
-        field->grid->setTransform(cell_centred_transform(edge, corner));
+        VoxelValues values(edge, corner);
         const auto columns = static_cast<int>(sensor.cells[0]), rows = static_cast<int>(sensor.cells[1]);
-        field->box = {openvdb::Coord(0), openvdb::Coord(columns - 1, 0, rows - 1)};
-        auto accessor = field->grid->getAccessor();
+        values.show({0, 0, 0}, {columns - 1, 0, rows - 1});
         const std::size_t first = first_sensor_cell(number);
         for (std::size_t cell = 0; cell < sensor.count() && !sensor_sums_.empty(); ++cell) {
             const double light = organs_.amount(sensor_sums_[(first + cell) * bands()], 0);
             const auto column = static_cast<int>(cell % sensor.cells[0]),
                        row = static_cast<int>(cell / sensor.cells[0]);
-            accessor.setValue({column, 0, row}, static_cast<float>(light));
+            values.set({column, 0, row}, static_cast<float>(light));
         }
-        return field;
+        return values.grid();
     }
 
     std::string name_;

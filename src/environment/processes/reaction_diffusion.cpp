@@ -4,9 +4,9 @@
 #include "espalier/base/math.h"
 #include "espalier/base/stop.h"
 #include "espalier/environment/environment_process.h"
-#include "espalier/geometry/openvdb_grid.h"
 
 #include "base/bytes.h"
+#include "geometry/grids/voxel_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,16 +27,21 @@ struct Sheet {
     }
     int around(int column) const { return (column % columns + columns) % columns; }
 
-    /// Calls react(cell, its four neighbours) for every cell; a cell at a border is its own neighbour there.
+    /// Some cells of a row: indices of the first of them and of its four neighbours.
+    struct Stretch {
+        std::size_t cells, first, up, down, left, right;
+    };
+
+    /// Calls react for stretches that loops over vectors can take; a cell at a border is its own neighbour there.
     template <class React>
-    void each(React react) const {
+    void each_stretch(React react) const {
         for (int row = 0; row < rows; ++row) {
             const std::size_t here = cell(0, row), up = cell(0, std::max(row - 1, 0));
             const std::size_t down = cell(0, std::min(row + 1, rows - 1));
             const auto last = static_cast<std::size_t>(columns - 1);
-            react(here, up, down, here + (round ? last : 0), here + 1);
-            for (std::size_t x = 1; x < last; ++x) react(here + x, up + x, down + x, here + x - 1, here + x + 1);
-            react(here + last, up + last, down + last, here + last - 1, here + (round ? 0 : last));
+            react(Stretch{1, here, up, down, here + (round ? last : 0), here + 1});
+            react(Stretch{last - 1, here + 1, up + 1, down + 1, here, here + 2});
+            react(Stretch{1, here + last, up + last, down + last, here + last - 1, here + (round ? 0 : last)});
         }
     }
 };
@@ -85,7 +90,9 @@ public:
           activator_(sheet_.cells(), 0),
           inhibitor_(sheet_.cells(), 0.1),
           second_(sheet_.cells(), 0),
-          source_(sheet_.cells(), 0) {
+          source_(sheet_.cells(), 0),
+          production_(sheet_.cells(), production) {
+        std::fill_n(production_.begin(), sheet_.cell(0, barren_rows), 0);
         activator_[sheet_.cell(0, barren_rows + 2)] = 1;
         for (int row = sheet_.rows - 1; row >= 0; --row) add_sources(row);
     }
@@ -143,22 +150,38 @@ private:
         next_activator_.resize(sheet_.cells());
         next_inhibitor_.resize(sheet_.cells());
         next_second_.resize(sheet_.cells());
-        const double *a = activator_.data(), *h = inhibitor_.data(), *second = second_.data(), *source = source_.data();
-        double *next_a = next_activator_.data(), *next_h = next_inhibitor_.data(), *next_second = next_second_.data();
-        const std::size_t fertile = sheet_.cell(0, barren_rows);
-        sheet_.each([=, this](std::size_t i, std::size_t up, std::size_t down, std::size_t left, std::size_t right) {
-            const double square = a[i] * a[i], made = i < fertile ? 0 : production * source[i];
-            next_a[i] = a[i] + made * (square + basic) / (h[i] + strength_ * second[i] + 1e-6) - decay * a[i] +
-                        spread * (a[up] + a[down] + a[left] + a[right] - 4 * a[i]);
-            next_h[i] = h[i] + made * square - inhibitor_decay * h[i] +
-                        inhibitor_spread * (h[up] + h[down] + h[left] + h[right] - 4 * h[i]);
-            next_second[i] =
-                second[i] + memory_ * (a[i] - second[i]) +
-                second_spread_ * (second[up] + second[down] + second[left] + second[right] - 4 * second[i]);
-        });
+        sheet_.each_stretch([this](const Sheet::Stretch& at) { react(at); });
         activator_.swap(next_activator_);
         inhibitor_.swap(next_inhibitor_);
         second_.swap(next_second_);
+    }
+
+    // A loop for each substance, with copies of the numbers: as one, the compiler makes none over vectors of it.
+    void react(const Sheet::Stretch& at) {
+        const auto [cells, first, up, down, left, right] = at;
+        const double *a = activator_.data(), *h = inhibitor_.data(), *second = second_.data();
+        const double *rate = production_.data() + first, *source = source_.data() + first;
+        const auto flow = [=](const double* of, std::size_t i) {
+            return of[up + i] + of[down + i] + of[left + i] + of[right + i] - 4 * of[first + i];
+        };
+        const double strength = strength_, memory = memory_, second_spread = second_spread_;
+        double* next = next_activator_.data() + first;
+        for (std::size_t i = 0; i < cells; ++i) {
+            const double here = a[first + i], made = rate[i] * source[i];
+            next[i] = here + made * (here * here + basic) / (h[first + i] + strength * second[first + i] + 1e-6) -
+                      decay * here + spread * flow(a, i);
+        }
+        next = next_inhibitor_.data() + first;
+        for (std::size_t i = 0; i < cells; ++i) {
+            const double here = h[first + i], made = rate[i] * source[i];
+            next[i] =
+                here + made * (a[first + i] * a[first + i]) - inhibitor_decay * here + inhibitor_spread * flow(h, i);
+        }
+        next = next_second_.data() + first;
+        for (std::size_t i = 0; i < cells; ++i) {
+            const double here = second[first + i];
+            next[i] = here + memory * (a[first + i] - here) + second_spread * flow(second, i);
+        }
     }
 
     // The new row at the tip is like the one that was there.
@@ -225,6 +248,7 @@ private:
     std::int64_t rounds_;
     double noise_, strength_, memory_, second_spread_;
     Substance activator_, inhibitor_, second_, source_, next_activator_, next_inhibitor_, next_second_;
+    Substance production_;  ///< of activator and inhibitor, by a source of 1
     std::vector<Maximum> maxima_;
     int grown_ = 0;
     std::uint64_t drawn_ = 0;  ///< rows of sources
@@ -286,13 +310,18 @@ private:
         next_a_.resize(a.size());
         next_h_.resize(a.size());
         next_s_.resize(a.size());
-        sheet_.each([&](std::size_t i, std::size_t up, std::size_t down, std::size_t left, std::size_t right) {
-            const auto flow = [&](const Substance& of) { return of[up] + of[down] + of[left] + of[right] - 4 * of[i]; };
-            const double made = 0.002 * source_[i] * a[i] * a[i] * s[i];
-            next_a_[i] = a[i] + made / h[i] + 0.03 * source_[i] * v[i] - 0.16 * a[i] + 0.03 * flow(a);
-            next_h_[i] = h[i] + made + 0.00005 * v[i] - 0.04 * h[i] + 0.18 * flow(h);
-            next_s_[i] = s[i] + 0.02 - 0.02 * s[i] - uptake_ * s[i] * v[i] + 0.06 * flow(s);
-            v[i] += 0.0035 * a[i] - 0.1 * v[i] + v[i] * v[i] / (1 + 10 * v[i] * v[i]);
+        sheet_.each_stretch([&](const Sheet::Stretch& at) {
+            for (std::size_t k = 0; k < at.cells; ++k) {
+                const std::size_t i = at.first + k;
+                const auto flow = [&](const Substance& of) {
+                    return of[at.up + k] + of[at.down + k] + of[at.left + k] + of[at.right + k] - 4 * of[i];
+                };
+                const double made = 0.002 * source_[i] * a[i] * a[i] * s[i];
+                next_a_[i] = a[i] + made / h[i] + 0.03 * source_[i] * v[i] - 0.16 * a[i] + 0.03 * flow(a);
+                next_h_[i] = h[i] + made + 0.00005 * v[i] - 0.04 * h[i] + 0.18 * flow(h);
+                next_s_[i] = s[i] + 0.02 - 0.02 * s[i] - uptake_ * s[i] * v[i] + 0.06 * flow(s);
+                v[i] += 0.0035 * a[i] - 0.1 * v[i] + v[i] * v[i] / (1 + 10 * v[i] * v[i]);
+            }
         });
         a.swap(next_a_);
         h.swap(next_h_);
@@ -340,20 +369,15 @@ public:
 private:
     // One layer in the x-y plane. The tip of a stem is above.
     std::shared_ptr<const FieldGrid> grid() const {
-        initialize_openvdb();
         const Sheet& sheet = pattern_->sheet();
-        auto field = std::make_shared<FieldGrid>();
-        field->grid = openvdb::FloatGrid::create(0);
-        field->grid->setTransform(cell_centred_transform(cell_, {0, 0, -cell_ / 2}));
-        field->box = {openvdb::Coord(0, 0, 0), openvdb::Coord(sheet.columns - 1, sheet.rows - 1, 0)};
-        auto accessor = field->grid->getAccessor();
+        VoxelValues values(cell_, {0, 0, -cell_ / 2});
         for (int row = 0; row < sheet.rows; ++row) {
             for (int column = 0; column < sheet.columns; ++column) {
-                const openvdb::Coord at(column, sheet.round ? sheet.rows - 1 - row : row, 0);
-                accessor.setValue(at, static_cast<float>(pattern_->shown()[sheet.cell(column, row)]));
+                values.set({column, sheet.round ? sheet.rows - 1 - row : row, 0},
+                           static_cast<float>(pattern_->shown()[sheet.cell(column, row)]));
             }
         }
-        return field;
+        return values.grid();
     }
 
     std::string name_;

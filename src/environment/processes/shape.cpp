@@ -17,6 +17,7 @@
 
 #include "base/parallel.h"
 #include "environment/shapes/field.h"
+#include "geometry/grids/voxel_values.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -159,7 +160,7 @@ private:
     void provide_field(Fields& fields) {
         if (box_.empty()) return;
         const std::shared_ptr<const FieldGrid> grid = sample_level_set(*shape_, box_, voxel_, memory_, place_);
-        held_ = grid->grid->memUsage();
+        held_ = bytes_held(*grid);
         fields.provide(
             {name_ + ".distance", "m", "signed distance to the surface, negative inside", grid, motion_.moves()});
     }

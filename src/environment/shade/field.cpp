@@ -27,7 +27,7 @@ std::size_t changes_like_rebuild(const ShadeCasts& casts, std::size_t bricks) {
     return (8 * bricks + layers * 2 / 5) / rows;
 }
 
-constexpr int edge = ShadeBricks::edge;
+constexpr int brick_edge = ShadeBricks::edge;
 
 // Parts whose memory is on its way before the first of them is added.
 constexpr std::size_t most_listed = 256;
@@ -46,7 +46,7 @@ struct Square {
     }
     Square seen_from(const glm::ivec3& origin) const {
         return Square{left - origin.x, right - origin.x, back - origin.z, front - origin.z}.within(
-            {0, edge - 1, 0, edge - 1});
+            {0, brick_edge - 1, 0, brick_edge - 1});
     }
     /// What lies to the left of `other`, to its right, behind it and before it.
     std::array<Square, 4> without(const Square& other) const {
@@ -62,11 +62,11 @@ struct Square {
 ESPALIER_VECTOR_CLONES
 void add_parts(std::span<const ShadePart> parts) {
     for (const ShadePart& part : parts) {
-        Shade row[edge];
-        for (int z = 0; z < edge; ++z) row[z] = z >= part.back && z <= part.front ? part.weight : 0;
+        Shade row[brick_edge];
+        for (int z = 0; z < brick_edge; ++z) row[z] = z >= part.back && z <= part.front ? part.weight : 0;
         for (int x = part.left; x <= part.right; ++x) {
-            Shade* sums = part.layer + x * edge * edge;
-            for (int z = 0; z < edge; ++z) sums[z] += row[z];
+            Shade* sums = part.layer + x * brick_edge * brick_edge;
+            for (int z = 0; z < brick_edge; ++z) sums[z] += row[z];
         }
     }
 }
@@ -181,18 +181,19 @@ void ShadeField::list(const ShadeCasts& casts, const ShadeCast& cast, const Shad
     const Shade* weights = casts.weights(cast);
     const auto list_part = [&](Shade* layer, const Square& part, Shade weight) {
         if (part.empty()) return;
-        for (int x = part.left; x <= part.right; ++x) prefetch(layer + x * edge * edge);
+        for (int x = part.left; x <= part.right; ++x) prefetch(layer + x * brick_edge * brick_edge);
         parts_.push_back({layer, part.left, part.right, part.back, part.front, weight});
     };
     const auto list_brick = [&](const glm::ivec3& brick) {
         const std::int32_t number = sign > 0 ? bricks_.retain(brick) : bricks_.find(brick);
         if (sign < 0) bricks_.release(number);
         Shade* sums = bricks_.sums(static_cast<std::size_t>(number));
-        const glm::ivec3 origin = brick * edge;
+        const glm::ivec3 origin = brick * brick_edge;
         const Square whole = Square{bounds.lower.x, bounds.upper.x, bounds.lower.z, bounds.upper.z}.seen_from(origin);
-        for (int y = std::max(bounds.lower.y, origin.y); y <= std::min(bounds.upper.y, origin.y + edge - 1); ++y) {
+        for (int y = std::max(bounds.lower.y, origin.y); y <= std::min(bounds.upper.y, origin.y + brick_edge - 1);
+             ++y) {
             const int q = apex.y - y, width = casts.half_width(q), deep = casts.thickness(q);
-            Shade* layer = sums + (y - origin.y) * edge;
+            Shade* layer = sums + (y - origin.y) * brick_edge;
             const Square part = Square::around(apex, width, deep).seen_from(origin).within(whole);
             if (except == nullptr) {
                 list_part(layer, part, sign * weights[q]);

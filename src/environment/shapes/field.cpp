@@ -1,5 +1,7 @@
 #include "environment/shapes/field.h"
 
+#include "espalier/geometry/openvdb_grid.h"
+
 #include "base/parallel.h"
 #include "environment/covering.h"
 

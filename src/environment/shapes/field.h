@@ -2,7 +2,7 @@
 #pragma once
 
 #include "espalier/environment/shape.h"
-#include "espalier/geometry/openvdb_grid.h"
+#include "espalier/geometry/field.h"
 
 namespace espalier::environment {
 

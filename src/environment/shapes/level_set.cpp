@@ -19,7 +19,7 @@ namespace {
 
 using DenseGrid = openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ>;
 
-constexpr float half_band = 3;  // voxels on either side: all that inside and a gradient at the surface need
+constexpr float band_beside = 3;  // voxels on either side: all that inside and a gradient at the surface need
 constexpr openvdb::Index64 dense_limit = 256 * 256 * 256;
 
 double area(const TriangleMesh& mesh) {
@@ -32,7 +32,7 @@ double area(const TriangleMesh& mesh) {
 
 void require_room(const TriangleMesh& mesh, double voxel, const std::string& file, const Place& place) {
     // The band's voxels lie in leaves that are part empty, and are made with an index of the nearest triangle each.
-    const double band_voxels = area(mesh) / (voxel * voxel) * 2 * half_band;
+    const double band_voxels = area(mesh) / (voxel * voxel) * 2 * band_beside;
     const double bytes = 4 * band_voxels * (sizeof(float) + sizeof(std::int32_t));
     const Box box = mesh.bounds();
     const glm::dvec3 farthest = glm::max(glm::abs(box.lower), glm::abs(box.upper)) / voxel;
@@ -65,7 +65,7 @@ openvdb::FloatGrid::Ptr to_level_set(const TriangleMesh& mesh, double voxel) {
     const auto transform = openvdb::math::Transform::createLinearTransform(voxel);
     Interrupter interrupter;
     openvdb::util::NullInterrupter& asked = interrupter;
-    auto grid = openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(asked, *transform, points, triangles, half_band);
+    auto grid = openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(asked, *transform, points, triangles, band_beside);
     end_if_asked();
     return grid;
 }

@@ -2,17 +2,15 @@
 
 #include "espalier/base/math.h"
 
-#include <bit>
+#include "environment/soil/octave_table.h"
+
 #include <cmath>
-#include <cstdint>
 #include <vector>
 
 namespace espalier::environment {
 namespace {
 
-constexpr int lowest_octave = -50, highest_octave = 6, parts_bits = 6, shift = 52 - parts_bits;
-constexpr std::uint64_t first_bits = std::uint64_t(1023 + lowest_octave) << parts_bits;
-constexpr std::size_t node_count = (std::size_t(highest_octave - lowest_octave) << parts_bits) + 1;
+using Table = OctaveTable<-50, 6>;
 
 struct Node {
     double b, x, slope;
@@ -30,10 +28,10 @@ double solve(double b, double x) {
 }
 
 std::vector<Node> make_nodes() {
-    std::vector<Node> nodes(node_count);
+    std::vector<Node> nodes(Table::node_count);
     double x = -64;
-    for (std::size_t i = node_count; i-- > 0;) {
-        const double b = std::bit_cast<double>((first_bits + i) << shift);
+    for (std::size_t i = Table::node_count; i-- > 0;) {
+        const double b = Table::node(i);
         x = b == 1 ? 0 : solve(b, x);
         nodes[i] = {b, x, 1 / bernoulli(x).slope};
     }
@@ -62,7 +60,7 @@ ValueAndSlope inverse_bernoulli(double b) {
         const double slope = bernoulli(x).slope;
         return {x, slope < 0 ? 1 / slope : -1 / b};
     }
-    const std::size_t i = (std::bit_cast<std::uint64_t>(b) >> shift) - first_bits;
+    const std::size_t i = Table::part_of(b);
     const Node &p = nodes[i], &q = nodes[i + 1];
     const double width = q.b - p.b, t = (b - p.b) / width;
     const double d0 = p.slope * width, d1 = q.slope * width, rise = q.x - p.x;

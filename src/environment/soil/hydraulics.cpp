@@ -2,24 +2,17 @@
 
 #include "espalier/base/math.h"
 
+#include "environment/soil/octave_table.h"
+
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 
 namespace espalier::environment {
 namespace {
 
-constexpr int lowest_octave = -10, highest_octave = 30;
-constexpr int parts_bits = 6;  // 64 parts of an octave
-constexpr int shift = 52 - parts_bits;
-constexpr std::uint64_t first_bits = std::uint64_t(1023 + lowest_octave) << parts_bits;
-constexpr std::size_t node_count = (std::size_t(highest_octave - lowest_octave) << parts_bits) + 1;
-
-double suction_of(std::size_t node) {
-    return std::bit_cast<double>((first_bits + node) << shift);
-}
+using Suctions = OctaveTable<-10, 30>;
+constexpr std::size_t node_count = Suctions::node_count;
 
 /// A cubic by values and slopes at both ends (Hermite), at a part t of the way.
 struct Cubic {
@@ -51,7 +44,7 @@ void SoilHydraulics::fill() {
     const auto saturation = [&](double suction) { return effective_saturation(soil_, -suction); };
     const auto conducts = [&](double suction) { return conductivity(soil_, -suction); };
     for (std::size_t i = 0; i < node_count; ++i) {
-        const double s = suction_of(i);
+        const double s = Suctions::node(i);
         nodes_[i] = {s, saturation(s), slope_of(saturation, s), conducts(s), slope_of(conducts, s), 0};
     }
 }
@@ -111,7 +104,7 @@ SoilPoint SoilHydraulics::nearly_full(double head) const {
 SoilPoint SoilHydraulics::at(double head) const {
     if (!(head < -nodes_.front().suction)) return nearly_full(head);
     const double s = std::min(-head, nodes_.back().suction * (1 - 1e-15));
-    const std::size_t i = (std::bit_cast<std::uint64_t>(s) >> shift) - first_bits;
+    const std::size_t i = Suctions::part_of(s);
     const Node &a = nodes_[i], &b = nodes_[i + 1];
     const double width = b.suction - a.suction, t = (s - a.suction) / width;
     const Cubic saturation = cubic(t, width, a.saturation, b.saturation, a.saturation_slope, b.saturation_slope);
@@ -139,7 +132,7 @@ double SoilHydraulics::head_of_conductivity(double value, double guess) const {
 /// in length find two that bound it.
 std::size_t SoilHydraulics::node_before(double wanted, double Node::*value, double guess) const {
     const double s = std::clamp(guess, nodes_.front().suction, nodes_[node_count - 2].suction);
-    std::size_t low = (std::bit_cast<std::uint64_t>(s) >> shift) - first_bits, high = low + 1, step = 1;
+    std::size_t low = Suctions::part_of(s), high = low + 1, step = 1;
     for (; !(nodes_[low].*value > wanted); step *= 2) {
         high = low;
         low -= std::min(step, low);

@@ -7,6 +7,8 @@
 
 namespace espalier::lsystem {
 
+constexpr std::size_t least_control_points = 4;
+
 /// De Boor's recurrence (de Boor 1972) with knots 0, 0, 0, 0, 1, 2, ..., n, n, n, n of n segments. `points` are the
 /// four of the segment that `u` lies in.
 template <class Point>

@@ -12,15 +12,15 @@
 namespace espalier::lsystem {
 namespace {
 
-constexpr std::size_t least_points = 4;
 constexpr double near_enough = 0.001;  // as cpfg stops; further halving would give other values than its
 constexpr int most_halvings = 60;
 
 }  // namespace
 
 FunctionCurve::FunctionCurve(std::vector<glm::dvec2> points, int samples) : points_(std::move(points)) {
-    if (points_.size() < least_points) {
-        throw UserError(fmt::format("a function needs at least {} points, not {}", least_points, points_.size()));
+    if (points_.size() < least_control_points) {
+        throw UserError(
+            fmt::format("a function needs at least {} points, not {}", least_control_points, points_.size()));
     }
     if (samples <= 2) return;
     samples_.reserve(std::size_t(samples));

@@ -14,7 +14,6 @@
 namespace espalier::lsystem {
 namespace {
 
-constexpr std::size_t least_points = 4;
 constexpr double epsilon = 0.000001;  // keeps the last parameter within the last segment, as cpfg does
 
 using Four = std::array<glm::dvec3, 4>;
@@ -50,8 +49,8 @@ void extend(std::vector<glm::dvec3>& points, SpaceCurve::Type type) {
 
 SpaceCurve::SpaceCurve(std::vector<glm::dvec3> points, Type type, int samples)
     : points_(std::move(points)), type_(type) {
-    if (points_.size() < least_points) {
-        throw UserError(fmt::format("a curve needs at least {} points, not {}", least_points, points_.size()));
+    if (points_.size() < least_control_points) {
+        throw UserError(fmt::format("a curve needs at least {} points, not {}", least_control_points, points_.size()));
     }
     extend(points_, type_);
     samples = std::max(samples, 2);

@@ -60,14 +60,14 @@ template <class Value>
 
 using Values = std::array<double, lanes>;
 
-void put(const Values& values, double* target, const Running& running) {
+void store(const Values& values, double* target, const Running& running) {
     each(target, running, [&](std::size_t k) { return values[k]; });
 }
 
 void power_each(double* columns, std::uint32_t base, std::uint32_t exponent, double* target, const Running& running) {
     Values powers;
     math::pow({columns + base * lanes, running.count}, {columns + exponent * lanes, running.count}, powers.data());
-    put(powers, target, running);
+    store(powers, target, running);
 }
 
 /// Functions of one value that are computed for several modules at a time; false for others.
@@ -99,7 +99,7 @@ void call_each(double* columns, const Instruction& i, const Running& running, Ar
     if (i.function == Function::pow) return power_each(columns, i.a, i.a + 1, target, running);
     Values computed;
     if (compute(i.function, {columns + i.a * lanes, running.count}, computed.data()))
-        return put(computed, target, running);
+        return store(computed, target, running);
     std::vector<double> values(i.count);
     for (std::size_t k = 0; k < running.count; ++k) {
         if (!running.runs(k)) continue;

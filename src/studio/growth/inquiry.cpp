@@ -9,14 +9,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <set>
 
 namespace espalier::studio {
 namespace {
-
-constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
 
 void require_step(const KeptSteps& steps, int step) {
     if (!steps.has(step)) throw UserError(fmt::format("step {} has not been grown", step));

@@ -9,12 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace espalier::studio {
 namespace {
-
-constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
 
 RecordedModule module_at(const FrameAttributes& of, std::size_t row) {
     return {{of.plants[row], of.identities[row]}, of.parents[row], of.symbols[row], of.births[row], of.orders[row], {}};

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <span>
 #include <string>
@@ -21,6 +22,8 @@ using Rgba = std::array<std::uint8_t, 4>;
 using Normal = std::array<std::int8_t, 4>;
 using Point = std::array<float, 3>;
 using OnPicture = std::array<float, 2>;
+
+constexpr float no_number = std::numeric_limits<float>::quiet_NaN();  ///< of an organ that lacks what a column shows
 
 Point point_of(const glm::dvec3& v);
 

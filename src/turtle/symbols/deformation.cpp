@@ -40,7 +40,7 @@ void begin_deformation(Walk& walk, std::span<const double> values) {
     walk.begin_deformation(std::move(form));
 }
 
-const Registered<Symbol> begin{
+const Registered<Symbol> deformation_start{
     {"@Db",
      {},
      "@Db(leaves,nx,ny,nz,x,y,z,X,Y,Z,moves...): begin a free-form deformation of the box from (x,y,z) to (X,Y,Z) in "
@@ -48,10 +48,10 @@ const Registered<Symbol> begin{
      "turtle's frame by the moves of nx by ny by nz points; leaves 0 bend, 1 are carried, 2 stay",
      begin_deformation}};
 
-const Registered<Symbol> end{{"@De",
-                              {0},
-                              "@De: end the deformation: what was drawn since it began is moved",
-                              [](Walk& walk, std::span<const double>) { walk.end_deformation(); }}};
+const Registered<Symbol> deformation_end{{"@De",
+                                          {0},
+                                          "@De: end the deformation: what was drawn since it began is moved",
+                                          [](Walk& walk, std::span<const double>) { walk.end_deformation(); }}};
 
 const Registered<SymbolGroup> deformation_group{
     {"deformation",

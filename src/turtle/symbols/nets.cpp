@@ -4,20 +4,22 @@
 namespace espalier::turtle {
 namespace {
 
-const Registered<Symbol> begin{{"@Nb",
-                                {1},
-                                "@Nb(columns): begin a net of points with so many in each row",
-                                [](Walk& walk, std::span<const double> parameters) { walk.begin_net(parameters[0]); }}};
+const Registered<Symbol> begin_net{
+    {"@Nb",
+     {1},
+     "@Nb(columns): begin a net of points with so many in each row",
+     [](Walk& walk, std::span<const double> parameters) { walk.begin_net(parameters[0]); }}};
 
-const Registered<Symbol> point{
+const Registered<Symbol> net_point{
     {"@Np", {0}, "@Np: the turtle's position is the next point of the net", [](Walk& walk, std::span<const double>) {
          walk.net_point();
      }}};
 
-const Registered<Symbol> end{{"@Ne",
-                              {0},
-                              "@Ne: draw the net; u runs along its rows and v from the first row to the last, 0 to 1",
-                              [](Walk& walk, std::span<const double>) { walk.draw_net(); }}};
+const Registered<Symbol> end_net{
+    {"@Ne",
+     {0},
+     "@Ne: draw the net; u runs along its rows and v from the first row to the last, 0 to 1",
+     [](Walk& walk, std::span<const double>) { walk.draw_net(); }}};
 
 const Registered<SymbolGroup> nets_group{
     {"nets",

@@ -4,7 +4,7 @@
 namespace espalier::turtle {
 namespace {
 
-const Registered<Symbol> begin{
+const Registered<Symbol> begin_patch{
     {"@PS",
      {1, 2},
      "@PS(patch, basis): begin a patch of this number; 1 Bezier (also without basis), 2 B-spline, 3 Cardinal",
@@ -14,7 +14,7 @@ const Registered<Symbol> begin{
          walk.begin_patch(parameters[0], basis == 2 ? b_spline : basis == 3 ? cardinal : bezier);
      }}};
 
-const Registered<Symbol> point{
+const Registered<Symbol> patch_point{
     {"@PC",
      {3},
      "@PC(patch, row, column): the turtle's position is this control point; both count from 0, or from 1",
@@ -22,7 +22,7 @@ const Registered<Symbol> point{
          walk.patch_point(parameters[0], parameters[1], parameters[2]);
      }}};
 
-const Registered<Symbol> draw{
+const Registered<Symbol> draw_patch{
     {"@PD",
      {1, 3},
      "@PD(patch, rows, columns): draw the patch, divided into so many quadrilaterals; 5 by 5 if left out",

@@ -12,7 +12,7 @@ std::optional<double> second(std::span<const double> parameters) {
     return parameters.size() > 1 ? std::optional(parameters[1]) : std::nullopt;
 }
 
-const Registered<Symbol> open{
+const Registered<Symbol> open_polygon{
     {"{",
      {},
      "{: begin a polygon. {(curve, strips): begin a generalized cylinder; 1 open Hermite curve, 2 closed, "
@@ -24,7 +24,7 @@ const Registered<Symbol> open{
          walk.begin_cylinder(GeneralizedCylinder::Curve(int(parameters[0])), second(parameters));
      }}};
 
-const Registered<Symbol> close{
+const Registered<Symbol> close_polygon{
     {"}",
      {},
      "}: end the polygon and fill it; fewer than three vertices draw nothing. Ends a cylinder begun by {",
@@ -33,16 +33,17 @@ const Registered<Symbol> close{
          walk.close_polygon();
      }}};
 
-const Registered<Symbol> vertex{{".",
-                                 {},
-                                 ".: mark a vertex of the open polygon where the turtle is, unless the last one is "
-                                 "there; .(strips): a control point of the open "
-                                 "cylinder",
-                                 [](Walk& walk, std::span<const double> parameters) {
-                                     if (!parameters.empty()) return walk.control_point(parameters[0]);
-                                     if (walk.in_cylinder_braces()) return walk.control_point({});
-                                     walk.record_vertex();
-                                 }}};
+const Registered<Symbol> polygon_vertex{
+    {".",
+     {},
+     ".: mark a vertex of the open polygon where the turtle is, unless the last one is "
+     "there; .(strips): a control point of the open "
+     "cylinder",
+     [](Walk& walk, std::span<const double> parameters) {
+         if (!parameters.empty()) return walk.control_point(parameters[0]);
+         if (walk.in_cylinder_braces()) return walk.control_point({});
+         walk.record_vertex();
+     }}};
 
 const Registered<SymbolGroup> polygon_group{
     {"polygon",

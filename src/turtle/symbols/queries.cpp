@@ -32,15 +32,15 @@ void ask(Walk& walk, std::span<const double>) {
 
 using enum Symbol::Effect;
 
-const Registered<Symbol> position{
+const Registered<Symbol> asked_position{
     {"?P", {2, 3}, "?P(x, y, z): the turtle answers with its position", answer_position, answers}};
-const Registered<Symbol> heading{
+const Registered<Symbol> asked_heading{
     {"?H", {2, 3}, "?H(x, y, z): the turtle answers with its heading", answer_direction<&Pose::heading>, answers}};
-const Registered<Symbol> left{
+const Registered<Symbol> asked_left{
     {"?L", {2, 3}, "?L(x, y, z): the turtle answers with its left direction", answer_direction<&Pose::left>, answers}};
-const Registered<Symbol> up{
+const Registered<Symbol> asked_up{
     {"?U", {2, 3}, "?U(x, y, z): the turtle answers with its up direction", answer_direction<&Pose::up>, answers}};
-const Registered<Symbol> orientation{
+const Registered<Symbol> asked_orientation{
     {"?Q", {4}, "?Q(w, x, y, z): the turtle answers with its orientation, a quaternion", answer_orientation, answers}};
 const Registered<Symbol> old_position{{"s", {2, 3}, "s(x, y, z): the older name of ?P", answer_position, answers}};
 const Registered<Symbol> communication{

@@ -74,7 +74,7 @@ const Registered<Symbol> along_field{
      "@Tv(field, strength): the same towards the vector of a field at the turtle, the more, the longer it is",
      turn_along_field}};
 
-const Registered<Symbol> set{
+const Registered<Symbol> set_elasticity{
     {"@Ts", {2}, "@Ts(tropism, elasticity): set the elasticity", [](Walk& walk, std::span<const double> parameters) {
          if (double* elasticity = walk.elasticity(parameters[0])) *elasticity = parameters[1];
      }}};

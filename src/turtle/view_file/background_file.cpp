@@ -20,9 +20,9 @@
 namespace espalier::turtle {
 namespace {
 
-constexpr std::size_t most_diagnostics = 100;
+constexpr std::size_t most_told = 100;
 constexpr std::size_t most_matrices = 1000;
-constexpr std::string_view separators = TextCursor::white_space;
+constexpr std::string_view between_words = TextCursor::white_space;
 
 // What programs that write such scenes add to them; without meaning here.
 constexpr std::array unused_commands{"matrixmode", "loadmatrix", "loadidentity", "light",
@@ -42,7 +42,7 @@ public:
 
     void read() {
         begin_piece();
-        for (text_.skip(separators); !text_.at_end(); text_.skip(separators)) read_command();
+        for (text_.skip(between_words); !text_.at_end(); text_.skip(between_words)) read_command();
         end_piece();
     }
 
@@ -54,7 +54,7 @@ private:
     static const std::unordered_map<std::string_view, Command>& commands();
 
     void complain(const TextCursor& at, const std::string& message) {
-        if (diagnostics_.size() < most_diagnostics) diagnostics_.push_back(at.diagnostic(message));
+        if (diagnostics_.size() < most_told) diagnostics_.push_back(at.diagnostic(message));
     }
 
     void read_command() {
@@ -63,7 +63,7 @@ private:
             text_.line();
             return;
         }
-        const std::string_view word = text_.word(separators);
+        const std::string_view word = text_.word(between_words);
         const auto found = commands().find(word);
         if (found == commands().end()) return skip_command(word, start);
         const std::vector<double> numbers = read_numbers();
@@ -79,7 +79,7 @@ private:
     std::vector<double> read_numbers() {
         std::vector<double> numbers;
         for (;;) {
-            text_.skip(separators);
+            text_.skip(between_words);
             const std::optional<double> number = text_.number();
             if (!number) return numbers;
             numbers.push_back(*number);

@@ -219,7 +219,7 @@ constexpr std::array light_letters{
 constexpr ViewValue of_window{ViewKind::other, "without meaning outside a window"};
 constexpr bool display = true;
 
-constexpr std::array keywords{
+constexpr std::array of_display{
     ViewKeyword{"viewpoint:", "three numbers", viewpoint, {ViewKind::vector, "where the eye stands", "0 0 1"}},
     ViewKeyword{"view reference point:",
                 "three numbers",
@@ -282,7 +282,7 @@ constexpr std::array keywords{
 }  // namespace
 
 std::span<const ViewKeyword> display_keywords() {
-    return keywords;
+    return of_display;
 }
 
 }  // namespace espalier::turtle

@@ -33,7 +33,7 @@ constexpr std::array foreign_labels{"scale:",      "corrected rotation:",
                                     "colors:",     "type:",
                                     "panel name:", "target:"};
 
-const std::unordered_map<std::string_view, const ViewKeyword*>& keywords() {
+const std::unordered_map<std::string_view, const ViewKeyword*>& known_keywords() {
     static const auto table = [] {
         std::unordered_map<std::string_view, const ViewKeyword*> by_label;
         for (const auto& group : {turtle_keywords(), shape_keywords(), display_keywords()}) {
@@ -93,8 +93,8 @@ void ViewReader::read_setting() {
         label += text_.next();
         text_.accept(label.substr(label.size() - 1));
     }
-    const auto found = keywords().find(label);
-    if (found == keywords().end()) return unknown(label, setting_);
+    const auto found = known_keywords().find(label);
+    if (found == known_keywords().end()) return unknown(label, setting_);
     keyword_ = found->second;
     if (keyword_->display) {
         const std::string name = without_colon(label);
@@ -111,7 +111,7 @@ void ViewReader::unknown(const std::string& label, const TextCursor& start) {
     text_.line();
     if (std::find(foreign_labels.begin(), foreign_labels.end(), label) != foreign_labels.end()) return;
     std::vector<std::string> known;
-    for (const auto& entry : keywords()) known.push_back(without_colon(entry.first));
+    for (const auto& entry : known_keywords()) known.push_back(without_colon(entry.first));
     std::sort(known.begin(), known.end());
     std::string name = without_colon(label);
     while (name.ends_with('\r') || name.ends_with(' ')) name.pop_back();

@@ -316,7 +316,7 @@ constexpr std::array texture_letters{
               .letter = 'R'},
 };
 
-constexpr std::array keywords{
+constexpr std::array of_shapes{
     ViewKeyword{"surface:", "an id, a file and a size", surface, {ViewKind::other, "a surface that ~ draws"}},
     ViewKeyword{"line:", "an id, a file and a size", line_surface, {ViewKind::other, "the same, as an older name"}},
     ViewKeyword{"tsurface:",
@@ -361,7 +361,7 @@ constexpr std::array keywords{
 }  // namespace
 
 std::span<const ViewKeyword> shape_keywords() {
-    return keywords;
+    return of_shapes;
 }
 
 }  // namespace espalier::turtle

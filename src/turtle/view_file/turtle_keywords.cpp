@@ -231,7 +231,7 @@ constexpr std::array tropism_letters{
               .letter = 'S'},
 };
 
-constexpr std::array keywords{
+constexpr std::array of_turtle{
     ViewKeyword{"angle factor:",
                 "a number",
                 angle_factor,
@@ -296,7 +296,7 @@ constexpr std::array keywords{
 }  // namespace
 
 std::span<const ViewKeyword> turtle_keywords() {
-    return keywords;
+    return of_turtle;
 }
 
 }  // namespace espalier::turtle

@@ -14,7 +14,7 @@ using namespace espalier::environment;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The mean over all leaves of |normal . direction|, one leaf after the other.
 double by_leaves(const std::function<double(double)>& density, double zenith) {

@@ -8,7 +8,7 @@ using namespace espalier::environment;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 const std::string black = "bands.par = { leaf = [0, 0], stem = 0, soil = 0 }\n";
 
 std::string band(double reflected, double transmitted, double soil, const std::string& name = "par") {

@@ -1,24 +1,21 @@
-#include "espalier/base/random.h"
-
 #include "catch.h"
-#include "environment/exchange_plants.h"
+#include "environment/lit_leaves.h"
 
 #include <glm/geometric.hpp>
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 using namespace espalier;
 using namespace espalier::environment;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
-const std::string sun_above = "sky = { par = 1000, diffuse = 0, sun = [0, 1, 0] }\n";
+const std::string sun_at_zenith = "sky = { par = 1000, diffuse = 0, sun = [0, 1, 0] }\n";
 
-Environment light_of(const std::string& lines, const Box& domain = {{0, 0, 0}, {2, 3, 2}}) {
+Environment canopy_light(const std::string& lines, const Box& domain = {{0, 0, 0}, {2, 3, 2}}) {
     EnvironmentContext context;
     context.domain = domain;
     context.plants = 2;
@@ -26,31 +23,11 @@ Environment light_of(const std::string& lines, const Box& domain = {{0, 0, 0}, {
     return environment_of("[light]\nprocess = \"canopy-light\"\n" + black + lines, context);
 }
 
-double statistic(const Environment& environment, const std::string& name, std::uint32_t plant = 0) {
-    for (const Quantity& quantity : environment.statistics(plant)) {
-        if (quantity.name == "light." + name) return quantity.value;
-    }
-    throw std::runtime_error("no statistic " + name);
-}
-
-/// A leaf: a square in the plane of two unit vectors, drawn by module `module`.
-void draw_square(PlantGeometry& geometry, std::uint32_t module, const glm::dvec3& middle, const glm::dvec3& along,
-                 const glm::dvec3& across, double side) {
-    Polygon polygon{};
-    polygon.module = module;
-    polygon.first = static_cast<std::uint32_t>(geometry.vertices.size());
-    polygon.count = 4;
-    for (const auto& [a, b] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
-        geometry.vertices.push_back(middle + side / 2 * (a * along + b * across));
-    }
-    geometry.polygons.push_back(polygon);
-}
-
 }  // namespace
 
 TEST_CASE("a level leaf under the open sky absorbs what falls on it", "[canopy-light]") {
     for (const double height : {0.07, 1.3, 55.0}) {
-        Environment environment = light_of("voxel = 0.5\n" + sun_above);
+        Environment environment = canopy_light("voxel = 0.5\n" + sun_at_zenith);
         AskingPlants plants;
         plants.add({{{0.2, height, 0.1}, {0, 0, 0}}, {{0, 0, 0}, {0}}});
         draw_square(plants.interpretation(0).geometry, 1, {0.2, height, 0.1}, {1, 0, 0}, {0, 0, 1}, 0.02);
@@ -68,7 +45,7 @@ TEST_CASE("random leaves of a periodic canopy absorb 1 - exp(-G LAI / cos zenith
     constexpr int count = 30000;  // 12 m2 over 4 m2
     for (const double zenith : {0.0, 0.7, 1.2}) {
         for (const double voxel : {1.0, 0.5}) {
-            Environment environment = light_of(
+            Environment environment = canopy_light(
                 "voxel = " + std::to_string(voxel) + "\nperiodic = true\nsky = { par = 500, diffuse = 0, sun = [" +
                 std::to_string(std::sin(zenith)) + ", " + std::to_string(std::cos(zenith)) + ", 0] }\n");
             AskingPlants plants;
@@ -97,7 +74,7 @@ TEST_CASE("random leaves of a periodic canopy absorb 1 - exp(-G LAI / cos zenith
 
 TEST_CASE("queries that bring their leaf area share the light of a layer of that area", "[canopy-light]") {
     Environment environment =
-        light_of("voxel = 1\narea = \"queries\"\nleaf_angles = \"horizontal\"\nperiodic = true\n" + sun_above);
+        canopy_light("voxel = 1\narea = \"queries\"\nleaf_angles = \"horizontal\"\nperiodic = true\n" + sun_at_zenith);
     std::vector<Asked> asked;
     for (const double y : {0.5, 1.5, 2.5}) {
         for (const double x : {0.5, 1.5}) {
@@ -120,7 +97,7 @@ TEST_CASE("leaves of several plants absorb the same as leaves of one, in any ord
     const std::vector<Asked> first{{{0.1, 0.3, 0.2}, {0.03, 0}}, {{0.3, 0.9, 0.1}, {0.05, 0}}};
     const std::vector<Asked> second{{{0.2, 0.6, 0.2}, {0.04, 0}}};
     const std::string lines = "area = \"queries\"\nsky = { latitude = 40, day = 150 }\n";
-    Environment one = light_of(lines), two = light_of(lines);
+    Environment one = canopy_light(lines), two = canopy_light(lines);
     AskingPlants alone, apart;
     alone.add({first[0], first[1], second[0]}).exchange(one);
     apart.add(second).add(first).exchange(two);
@@ -131,7 +108,7 @@ TEST_CASE("leaves of several plants absorb the same as leaves of one, in any ord
 
 TEST_CASE("a day of half clearness at 50 degrees brings what the sun's path and half of its light make",
           "[canopy-light]") {
-    Environment environment = light_of("sky = { latitude = 50, day = 172, year = 2025 }\n");
+    Environment environment = canopy_light("sky = { latitude = 50, day = 172, year = 2025 }\n");
     AskingPlants plants;
     plants.add({{{0, 1, 0}, {0}}}).exchange(environment);
     // The daily light above the air in closed form (Spencer 1971; Iqbal 1983, equation 4.2.22), declination 23.44.
@@ -146,7 +123,7 @@ TEST_CASE("a day of half clearness at 50 degrees brings what the sun's path and 
 }
 
 TEST_CASE("light that cannot be is refused in words", "[canopy-light]") {
-    const auto message = [](const std::string& lines) { return message_of([&] { light_of(lines); }); };
+    const auto message = [](const std::string& lines) { return message_of([&] { canopy_light(lines); }); };
     CHECK(lacks(message("sky = { par = 1000, diffuse = 0.5, sun = [1, 0, 0] }\n"), {"2 degrees above"}) == "");
     CHECK(lacks(message("sky = { north = [0, 1, 0] }\n"), {"must be horizontal"}) == "");
     CHECK(lacks(message("sky = { hours = [12, 9] }\n"), {"must rise"}) == "");
@@ -154,14 +131,14 @@ TEST_CASE("light that cannot be is refused in words", "[canopy-light]") {
     CHECK(lacks(message("sky = { radiance = \"cie-16\" }\n"), {"cie-15"}) == "");
     CHECK(lacks(message("voxel = 0.3\nperiodic = true\n"), {"whole number of voxels"}) == "");
     CHECK(lacks(message("leaf_angles = \"flat\"\n"), {"planophile"}) == "");
-    Environment environment = light_of("area = \"queries\"\n");
+    Environment environment = canopy_light("area = \"queries\"\n");
     AskingPlants plants;
     plants.add({{{0, 0, 0}, {-1, 0}}});
     CHECK(lacks(message_of([&] { plants.exchange(environment); }), {"must be a number from 0 on"}) == "");
 }
 
 TEST_CASE("a night brings no light, and asks for none", "[canopy-light]") {
-    Environment environment = light_of("sky = { latitude = 80, day = 355 }\n");
+    Environment environment = canopy_light("sky = { latitude = 80, day = 355 }\n");
     AskingPlants plants;
     plants.add({{{0, 1, 0}, {7, 7, 7}}}).exchange(environment);
     CHECK(plants.parameters() == std::vector<double>{0, 0, 0});
@@ -171,7 +148,7 @@ TEST_CASE("a night brings no light, and asks for none", "[canopy-light]") {
 TEST_CASE("larger voxels smooth a clump of leaves away, and absorb more", "[canopy-light]") {
     double before = 0;
     for (const char* voxel : {"0.1", "0.25", "0.5", "1"}) {
-        Environment environment = light_of("periodic = true\nvoxel = " + std::string(voxel) + "\n" + sun_above);
+        Environment environment = canopy_light("periodic = true\nvoxel = " + std::string(voxel) + "\n" + sun_at_zenith);
         AskingPlants plants;
         plants.add({{{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}});
         RandomSamples samples(RandomKey(3, 0, Stream::process, 1), 5, 0);

@@ -12,7 +12,7 @@ using namespace espalier::environment;
 
 namespace {
 
-std::vector<double> ask(Environment& environment, const std::vector<Asked>& questions) {
+std::vector<double> ask_density(Environment& environment, const std::vector<Asked>& questions) {
     AskingPlants plants;
     plants.add(questions).exchange(environment);
     return plants.parameters();
@@ -20,7 +20,7 @@ std::vector<double> ask(Environment& environment, const std::vector<Asked>& ques
 
 std::vector<double> density(const std::string& lines, const std::vector<Asked>& questions) {
     Environment environment = environment_of("[light]\nprocess = \"density\"\n" + lines);
-    return ask(environment, questions);
+    return ask_density(environment, questions);
 }
 
 Environment box() {
@@ -115,30 +115,30 @@ TEST_CASE("density3d adds up in string order, for good, through a checkpoint", "
     Environment environment = box();
     const std::vector<Asked> questions{
         {{0.1, 0.1, 0.1}, {2}}, {{0.9, 0.9, 0.9}, {3, 8}}, {{-1, 0.5, 0}, {1}}, {{3, 0, 0}, {7}}};
-    CHECK(ask(environment, questions) == std::vector<double>{2, 5, 8, 1, 0});
+    CHECK(ask_density(environment, questions) == std::vector<double>{2, 5, 8, 1, 0});
     CHECK(environment.statistics(0).back().value == 6);
     std::stringstream saved;
     environment.save(saved);
     Environment resumed = box();
     resumed.restore(saved);
     for (Environment* either : {&environment, &resumed}) {
-        CHECK(ask(*either, questions) == std::vector<double>{7, 10, 8, 2, 0});
+        CHECK(ask_density(*either, questions) == std::vector<double>{7, 10, 8, 2, 0});
     }
 }
 
 TEST_CASE("with the numbers of cpfg, density3d keeps whole sums", "[density3d]") {
     Environment environment = environment_of("[light]\nprocess = \"density3d\"\nnumbers = \"cpfg\"\n");
     const glm::dvec3 place(0.5);
-    CHECK(ask(environment, {{place, {0.7}}, {place, {2.6}}, {place, {1.5}}, {place, {-0.5}}}) ==
+    CHECK(ask_density(environment, {{place, {0.7}}, {place, {2.6}}, {place, {1.5}}, {place, {-0.5}}}) ==
           std::vector<double>{0, 2, 3, 2});
-    CHECK(ask(environment, {{place, {0.9}}}) == std::vector<double>{2});
+    CHECK(ask_density(environment, {{place, {0.9}}}) == std::vector<double>{2});
 }
 
 TEST_CASE("a box of 2^level voxels is as fine as a grid of that size", "[density3d]") {
     const std::vector<Asked> questions{{{0.49, 0, 0}, {1}}, {{0.51, 0, 0}, {1}}, {{0.74, 0, 0}, {1}}};
     for (const char* lines : {"octree_level = 1", "grid_size = [2, 2, 2]"}) {
         Environment environment = environment_of(std::string("[light]\nprocess = \"density3d\"\n") + lines);
-        CHECK(ask(environment, questions) == std::vector<double>{1, 1, 2});
+        CHECK(ask_density(environment, questions) == std::vector<double>{1, 1, 2});
     }
     CHECK(lacks(message_of([] { environment_of("[light]\nprocess = \"density3d\"\noctree_level = 99"); }),
                 {"octree_level"}) == "");

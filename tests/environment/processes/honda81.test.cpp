@@ -18,7 +18,7 @@ using namespace espalier::environment;
 
 namespace {
 
-std::vector<double> answers(const std::string& lines, const std::vector<Asked>& questions) {
+std::vector<double> answers_of_honda81(const std::string& lines, const std::vector<Asked>& questions) {
     Environment environment = environment_of("[light]\nprocess = \"honda81\"\n" + lines);
     AskingPlants plants;
     plants.add(questions).exchange(environment);
@@ -94,7 +94,7 @@ int forks(int steps, const Answers& free) {
 
 int forks_of_process(int steps, double radius) {
     return forks(steps, [&](const std::vector<Asked>& questions) {
-        const std::vector<double> parameters = answers("radius = " + std::to_string(radius), questions);
+        const std::vector<double> parameters = answers_of_honda81("radius = " + std::to_string(radius), questions);
         std::vector<double> free;
         for (std::size_t i = 0; i < parameters.size(); i += 2) free.push_back(parameters[i]);
         return free;
@@ -113,32 +113,32 @@ int forks_of_definition(int steps, double radius) {
 
 TEST_CASE("a branch is dominated by one of higher vigour within the radius, not by one beyond it", "[honda81]") {
     const auto pair = [](double apart) {
-        return answers("radius = 0.5", {{{0, 0, 0}, {0.9}}, {{apart, 7, 0}, {0.8}}});
+        return answers_of_honda81("radius = 0.5", {{{0, 0, 0}, {0.9}}, {{apart, 7, 0}, {0.8}}});
     };
     CHECK(pair(0.5) == std::vector<double>{1, 0});
     CHECK(pair(0.501) == std::vector<double>{1, 1});
 }
 
 TEST_CASE("two of equal vigour end each other", "[honda81]") {
-    CHECK(answers("radius = 1", {{{0, 0, 0}, {3}}, {{0, 0, 1}, {3}}, {{9, 0, 9}, {3}}}) ==
+    CHECK(answers_of_honda81("radius = 1", {{{0, 0, 0}, {3}}, {{0, 0, 1}, {3}}, {{9, 0, 9}, {3}}}) ==
           std::vector<double>{0, 0, 1});
 }
 
 TEST_CASE("heights matter in the 3d case only", "[honda81]") {
     const std::vector<Asked> stacked{{{0, 0, 0}, {2}}, {{0, 5, 0}, {1}}};
-    CHECK(answers("radius = 1", stacked) == std::vector<double>{1, 0});
-    CHECK(answers("radius = 1\n3d_case = true", stacked) == std::vector<double>{1, 1});
+    CHECK(answers_of_honda81("radius = 1", stacked) == std::vector<double>{1, 0});
+    CHECK(answers_of_honda81("radius = 1\n3d_case = true", stacked) == std::vector<double>{1, 1});
 }
 
 TEST_CASE("groups do not see each other, and parameters after the first stay", "[honda81]") {
-    CHECK(answers("radius = 1", {{{0, 0, 0}, {2, 1, 7}}, {{0, 0, 0}, {1, 2}}, {{0, 0, 0}, {1, 1}}}) ==
+    CHECK(answers_of_honda81("radius = 1", {{{0, 0, 0}, {2, 1, 7}}, {{0, 0, 0}, {1, 2}}, {{0, 0, 0}, {1, 1}}}) ==
           std::vector<double>{1, 1, 7, 1, 2, 0, 1});
 }
 
 TEST_CASE("with radius 0 only the very same place counts", "[honda81]") {
-    CHECK(answers("", {{{3, 0, 1e9}, {1}}, {{3, 4, 1e9}, {1}}, {{3.0000001, 0, 1e9}, {1}}}) ==
+    CHECK(answers_of_honda81("", {{{3, 0, 1e9}, {1}}, {{3, 4, 1e9}, {1}}, {{3.0000001, 0, 1e9}, {1}}}) ==
           std::vector<double>{0, 0, 1});
-    CHECK(answers("", {{{0, 0, 0}, {1}}, {{0, 0, 0}, {2}}}) == std::vector<double>{0, 1});
+    CHECK(answers_of_honda81("", {{{0, 0, 0}, {1}}, {{0, 0, 0}, {2}}}) == std::vector<double>{0, 1});
 }
 
 TEST_CASE("the search for dominating branches finds what comparing every pair finds", "[honda81]") {
@@ -146,7 +146,7 @@ TEST_CASE("the search for dominating branches finds what comparing every pair fi
         for (const double radius : {0.0, 0.02, 0.3, 1.0, 40.0}) {
             const std::vector<Asked> questions = random_questions(300, 4, 40);
             const std::string lines = "radius = " + std::to_string(radius) + "\n3d_case = " + (flat ? "false" : "true");
-            const std::vector<double> answered = answers(lines, questions);
+            const std::vector<double> answered = answers_of_honda81(lines, questions);
             int wrong = 0;
             for (std::size_t i = 0; i < questions.size(); ++i) {
                 wrong += answered[2 * i] != by_definition(questions, i, radius, flat);
@@ -159,15 +159,15 @@ TEST_CASE("the search for dominating branches finds what comparing every pair fi
 
 TEST_CASE("the order of the queries and the number of threads change no collision", "[honda81]") {
     std::vector<Asked> questions = random_questions(5000, 20, 30);
-    const std::vector<double> first = answers("radius = 0.6\n3d_case = true", questions);
+    const std::vector<double> first = answers_of_honda81("radius = 0.6\n3d_case = true", questions);
     std::vector<double> alone;
     {
         const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-        alone = answers("radius = 0.6\n3d_case = true", questions);
+        alone = answers_of_honda81("radius = 0.6\n3d_case = true", questions);
     }
     CHECK(first == alone);
     std::reverse(questions.begin(), questions.end());
-    const std::vector<double> reversed = answers("radius = 0.6\n3d_case = true", questions);
+    const std::vector<double> reversed = answers_of_honda81("radius = 0.6\n3d_case = true", questions);
     int wrong = 0;
     for (std::size_t i = 0; i < questions.size(); ++i) {
         wrong += first[2 * i] != reversed[2 * (questions.size() - 1 - i)];
@@ -179,7 +179,7 @@ TEST_CASE("a crowd at one place takes no more than linear time", "[honda81]") {
     std::vector<Asked> crowd;
     for (int i = 0; i < 200000; ++i) crowd.push_back({{1e-3 * (i % 100), 0, 0}, {double(i)}});
     const auto begin = std::chrono::steady_clock::now();
-    const std::vector<double> answered = answers("radius = 1", crowd);
+    const std::vector<double> answered = answers_of_honda81("radius = 1", crowd);
     CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(10));  // pair by pair it is minutes
     CHECK(std::accumulate(answered.begin(), answered.end(), 0.0) == 1);
     CHECK(answered.back() == 1);
@@ -198,5 +198,6 @@ TEST_CASE("a tier of Terminalia catappa forks everywhere without a radius, less 
 }
 
 TEST_CASE("a radius below 0 is a mistake", "[honda81]") {
-    CHECK(lacks(message_of([] { answers("radius = -1", {}); }), {"scene.toml:3", "'radius'", "at least 0"}) == "");
+    CHECK(lacks(message_of([] { answers_of_honda81("radius = -1", {}); }),
+                {"scene.toml:3", "'radius'", "at least 0"}) == "");
 }

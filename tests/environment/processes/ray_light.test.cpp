@@ -1,54 +1,31 @@
-#include "espalier/base/random.h"
-
 #include "catch.h"
-#include "environment/exchange_plants.h"
+#include "environment/lit_leaves.h"
 
 #include <glm/geometric.hpp>
 #include <tbb/global_control.h>
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 using namespace espalier;
 using namespace espalier::environment;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 const std::string sun_above = "sky = { par = 1000, diffuse = 0, sun = [0, 1, 0] }\n";
 const std::string black = "bands.par = { leaf = [0, 0], stem = 0, soil = 0 }\n";
 
-Environment light_of(const std::string& lines, const std::string& process = "ray-light") {
+Environment ray_light(const std::string& lines, const std::string& process = "ray-light") {
     EnvironmentContext context;
     context.domain = Box{{0, 0, 0}, {2, 3, 2}};
     context.plants = 2;
     return environment_of("[light]\nprocess = \"" + process + "\"\n" + lines, context);
 }
 
-double statistic(const Environment& environment, const std::string& name, std::uint32_t plant = 0) {
-    for (const Quantity& quantity : environment.statistics(plant)) {
-        if (quantity.name == "light." + name) return quantity.value;
-    }
-    throw std::runtime_error("no statistic " + name);
-}
-
-/// A square in the plane of two unit vectors, drawn by module `module`.
-void draw_square(PlantGeometry& geometry, std::uint32_t module, const glm::dvec3& middle, const glm::dvec3& along,
-                 const glm::dvec3& across, double side) {
-    Polygon polygon{};
-    polygon.module = module;
-    polygon.first = static_cast<std::uint32_t>(geometry.vertices.size());
-    polygon.count = 4;
-    for (const auto& [a, b] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
-        geometry.vertices.push_back(middle + side / 2 * (a * along + b * across));
-    }
-    geometry.polygons.push_back(polygon);
-}
-
 /// Squares of all directions anywhere in the domain.
-void draw_at_random(PlantGeometry& geometry, std::uint32_t module, int count, double side, std::uint64_t seed) {
+void scatter_squares(PlantGeometry& geometry, std::uint32_t module, int count, double side, std::uint64_t seed) {
     RandomSamples samples(RandomKey(seed, 0, Stream::process, 1), 5, 0);
     for (int i = 0; i < count; ++i) {
         const double y = samples.uniform(), turn = 2 * pi * samples.uniform(), across = std::sqrt(1 - y * y);
@@ -63,7 +40,7 @@ void draw_at_random(PlantGeometry& geometry, std::uint32_t module, int count, do
 
 TEST_CASE("a level black leaf under the open sky absorbs what falls on it", "[ray-light]") {
     for (const double height : {0.07, 1.3, 55.0}) {
-        Environment environment = light_of(black + sun_above);
+        Environment environment = ray_light(black + sun_above);
         AskingPlants plants;
         plants.add({{{0.2, height, 0.1}, {0, 0, 0}}, {{0, 0, 0}, {0}}});
         draw_square(plants.interpretation(0).geometry, 1, {0.2, height, 0.1}, {1, 0, 0}, {0, 0, 1}, 0.02);
@@ -79,8 +56,8 @@ TEST_CASE("a level black leaf under the open sky absorbs what falls on it", "[ra
 TEST_CASE("over a soil that reflects a share of the light, a small leaf gets that share from below", "[ray-light]") {
     for (const double soil : {0.1, 0.4}) {
         Environment environment =
-            light_of("periodic = true\npaths = 1000000\nbands.par = { leaf = [0, 0], soil = " + std::to_string(soil) +
-                     " }\n" + sun_above);
+            ray_light("periodic = true\npaths = 1000000\nbands.par = { leaf = [0, 0], soil = " + std::to_string(soil) +
+                      " }\n" + sun_above);
         AskingPlants plants;
         plants.add({{{1, 1, 1}, {0}}, {{0, 0, 0}, {0}}});
         draw_square(plants.interpretation(0).geometry, 1, {1, 1, 1}, {1, 0, 0}, {0, 0, 1}, 0.05);
@@ -94,7 +71,7 @@ TEST_CASE("one and two layers of level leaves divide the light as the exact seri
     const double back = 0.3, through = 0.2;
     for (const int layers : {1, 2}) {
         Environment environment =
-            light_of("periodic = true\nresidual = 1e-6\nbands.par = { leaf = [0.3, 0.2], soil = 0 }\n" + sun_above);
+            ray_light("periodic = true\nresidual = 1e-6\nbands.par = { leaf = [0.3, 0.2], soil = 0 }\n" + sun_above);
         AskingPlants plants;
         plants.add({{{1, 1, 1}, {0}}, {{0, 0, 0}, {0}}});
         for (int layer = 0; layer < layers; ++layer) {
@@ -111,7 +88,7 @@ TEST_CASE("one and two layers of level leaves divide the light as the exact seri
 
 TEST_CASE("an upright plate at the edge of a lit one gets what the view factor of an L says", "[ray-light]") {
     Environment environment =
-        light_of("paths = 1000000\nresidual = 1e-5\nbands.par = { leaf = [0.05, 0], soil = 0 }\n" + sun_above);
+        ray_light("paths = 1000000\nresidual = 1e-5\nbands.par = { leaf = [0.05, 0], soil = 0 }\n" + sun_above);
     AskingPlants plants;
     plants.add({{{0, 0, 0}, {0, 0}}, {{0, 0, 0}, {0}}, {{0, 0, 0}, {0, 0}}, {{0, 0, 0}, {0}}});
     PlantGeometry& geometry = plants.interpretation(0).geometry;
@@ -130,11 +107,11 @@ TEST_CASE("random black leaves of a periodic stand let exp(-G LAI / cos zenith) 
     const double area_index = count * side * side / 4;
     for (const double zenith : {0.0, 0.9}) {
         Environment environment =
-            light_of("periodic = true\npaths = 131072\n" + black + "sky = { par = 500, diffuse = 0, sun = [" +
-                     std::to_string(std::sin(zenith)) + ", " + std::to_string(std::cos(zenith)) + ", 0] }\n");
+            ray_light("periodic = true\npaths = 131072\n" + black + "sky = { par = 500, diffuse = 0, sun = [" +
+                      std::to_string(std::sin(zenith)) + ", " + std::to_string(std::cos(zenith)) + ", 0] }\n");
         AskingPlants plants;
         plants.add({{{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}});
-        draw_at_random(plants.interpretation(0).geometry, 1, count, side, 77 + std::uint64_t(10 * zenith));
+        scatter_squares(plants.interpretation(0).geometry, 1, count, side, 77 + std::uint64_t(10 * zenith));
         plants.exchange(environment);
         CHECK(statistic(environment, "leaf_area") == Approx(4 * area_index).epsilon(1e-6));
         // The gaps of one stand are a sample of its leaves' places: a standard error of half a percent.
@@ -144,10 +121,10 @@ TEST_CASE("random black leaves of a periodic stand let exp(-G LAI / cos zenith) 
 }
 
 TEST_CASE("scattered light is neither lost nor made, in any band", "[ray-light]") {
-    Environment environment = light_of("periodic = true\nbands.par = {}\nbands.nir = { share = 0.4 }\n" + sun_above);
+    Environment environment = ray_light("periodic = true\nbands.par = {}\nbands.nir = { share = 0.4 }\n" + sun_above);
     AskingPlants plants;
     plants.add({{{1, 1, 1}, {0, 0, 0, 0, 0}}, {{0, 0, 0}, {0}}});
-    draw_at_random(plants.interpretation(0).geometry, 1, 3000, 0.06, 3);
+    scatter_squares(plants.interpretation(0).geometry, 1, 3000, 0.06, 3);
     plants.exchange(environment);
     CHECK(std::abs(statistic(environment, "closure")) < 1e-6);
     const double par = statistic(environment, "absorbed"), nir = statistic(environment, "absorbed.nir");
@@ -162,13 +139,13 @@ TEST_CASE("black leaves absorb per organ what a ray tracer without tree or scatt
     constexpr int leaves = 40;
     const glm::dvec3 towards = glm::normalize(glm::dvec3(0.4, 1, 0.2));
     Environment environment =
-        light_of("paths = 1000000\n" + black + "sky = { par = 1000, diffuse = 0, sun = [0.4, 1, 0.2] }\n");
+        ray_light("paths = 1000000\n" + black + "sky = { par = 1000, diffuse = 0, sun = [0.4, 1, 0.2] }\n");
     AskingPlants plants;
     std::vector<Asked> asked;
     for (int i = 0; i < leaves; ++i) asked.insert(asked.end(), {{{0, 0, 0}, {0, 0}}, {{0, 0, 0}, {0}}});
     plants.add(asked);
     PlantGeometry& geometry = plants.interpretation(0).geometry;
-    for (std::uint32_t i = 0; i < leaves; ++i) draw_at_random(geometry, 2 * i + 1, 1, 0.7, 900 + i);
+    for (std::uint32_t i = 0; i < leaves; ++i) scatter_squares(geometry, 2 * i + 1, 1, 0.7, 900 + i);
     plants.exchange(environment);
 
     // Rays from a fine grid on each leaf towards the light, against all squares.
@@ -204,10 +181,10 @@ TEST_CASE("black leaves absorb per organ what a ray tracer without tree or scatt
 
 TEST_CASE("canopy-light and ray-light agree on random black leaves", "[ray-light]") {
     const std::string sky = "periodic = true\nsky = { par = 800, diffuse = 0.6, sun = [0.5, 1, 0.3] }\n";
-    Environment rays = light_of(black + sky), voxels = light_of("voxel = 0.5\n" + black + sky, "canopy-light");
+    Environment rays = ray_light(black + sky), voxels = ray_light("voxel = 0.5\n" + black + sky, "canopy-light");
     AskingPlants plants;
     plants.add({{{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}});
-    draw_at_random(plants.interpretation(0).geometry, 1, 20000, 0.02, 8);
+    scatter_squares(plants.interpretation(0).geometry, 1, 20000, 0.02, 8);
     plants.exchange(rays);
     plants.exchange(voxels);
     CHECK(statistic(rays, "absorbed") == Approx(statistic(voxels, "absorbed")).epsilon(0.02));
@@ -217,11 +194,11 @@ TEST_CASE("canopy-light and ray-light agree on random black leaves", "[ray-light
 TEST_CASE("one thread and two, plants in any order, and a plant moved by a period absorb the same", "[ray-light]") {
     const auto absorbed = [](int threads, std::uint32_t first, double shift) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
-        Environment environment = light_of("periodic = true\n" + sun_above);
+        Environment environment = ray_light("periodic = true\n" + sun_above);
         AskingPlants plants;
         for (int i = 0; i < 2; ++i) plants.add({{{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}});
-        draw_at_random(plants.interpretation(first).geometry, 1, 300, 0.1, 4);
-        draw_at_random(plants.interpretation(1 - first).geometry, 1, 300, 0.1, 5);
+        scatter_squares(plants.interpretation(first).geometry, 1, 300, 0.1, 4);
+        scatter_squares(plants.interpretation(1 - first).geometry, 1, 300, 0.1, 5);
         for (glm::dvec3& vertex : plants.interpretation(first).geometry.vertices) vertex.x += shift;
         plants.exchange(environment);
         return std::array{statistic(environment, "absorbed", first), statistic(environment, "absorbed", 1 - first)};
@@ -236,10 +213,10 @@ TEST_CASE("one thread and two, plants in any order, and a plant moved by a perio
 
 TEST_CASE("the standard error is that of repeated runs, and falls at least as the root of the paths", "[ray-light]") {
     const auto trial = [](const std::string& lines, int step) {
-        Environment environment = light_of(lines + sun_above);
+        Environment environment = ray_light(lines + sun_above);
         AskingPlants plants;
         plants.add({{{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}});
-        draw_at_random(plants.interpretation(0).geometry, 1, 200, 0.1, 4);
+        scatter_squares(plants.interpretation(0).geometry, 1, 200, 0.1, 4);
         plants.exchange(environment, step);
         return std::pair{statistic(environment, "absorbed"), statistic(environment, "absorbed_error")};
     };
@@ -260,7 +237,7 @@ TEST_CASE("the standard error is that of repeated runs, and falls at least as th
 }
 
 TEST_CASE("optical numbers that cannot be are refused in words", "[ray-light]") {
-    const auto message = [](const std::string& lines) { return message_of([&] { light_of(lines); }); };
+    const auto message = [](const std::string& lines) { return message_of([&] { ray_light(lines); }); };
     CHECK(lacks(message("bands.par = { leaf = [0.7, 0.4] }\n"), {"scene.toml", "1 together at most"}) == "");
     CHECK(lacks(message("bands.par = { leaf = [0.7] }\n"), {"[reflectance, transmittance]"}) == "");
     CHECK(lacks(message("bands.red = { soil = 0.1 }\n"), {"the band 'red' needs leaf"}) == "");

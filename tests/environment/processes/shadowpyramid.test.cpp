@@ -15,7 +15,7 @@ using namespace espalier::environment;
 
 namespace {
 
-std::vector<double> answers(const std::string& lines, const std::vector<Asked>& questions) {
+std::vector<double> answers_of_shadowpyramid(const std::string& lines, const std::vector<Asked>& questions) {
     Environment environment = environment_of("[light]\nprocess = \"shadowpyramid\"\n" + lines);
     AskingPlants plants;
     plants.add(questions).exchange(environment);
@@ -26,7 +26,7 @@ std::vector<double> answers(const std::string& lines, const std::vector<Asked>& 
 
 TEST_CASE("a caster has 0.42 itself, 0.668 one unit below and 0.916 two below, as measured", "[shadowpyramid]") {
     const std::vector<double> light =
-        answers("", {{{0, 0, 0}, {1}}, {{0, -1, 0}, {0}}, {{0, -2, 0}, {0}}, {{0, 3, 0}, {0}}});
+        answers_of_shadowpyramid("", {{{0, 0, 0}, {1}}, {{0, -1, 0}, {0}}, {{0, -2, 0}, {0}}, {{0, 3, 0}, {0}}});
     CHECK(light[0] == Approx(0.42).epsilon(1e-6));
     CHECK(light[1] == Approx(0.668).margin(5e-4));
     CHECK(light[2] == Approx(0.916).margin(5e-4));
@@ -51,16 +51,16 @@ TEST_CASE("layer i has (2i + 1)^2 voxels times 1 - a b^-d, and the shadows of tw
 TEST_CASE("the gradient points out of the shadow, with bias and chance added where they are asked for",
           "[shadowpyramid]") {
     const std::vector<Asked> beside{{{0, 0, 0}, {1}}, {{1, 0, 0}, {0, 0, 0, 0, 6}}};
-    const std::vector<double> light = answers("", beside);
+    const std::vector<double> light = answers_of_shadowpyramid("", beside);
     CHECK(light[2] > 0.05);
     CHECK(std::abs(light[4]) < 1e-7);
     CHECK(light[5] == 6);
-    const std::vector<double> biased = answers("light_vertical_bias = 0.25\n", beside);
+    const std::vector<double> biased = answers_of_shadowpyramid("light_vertical_bias = 0.25\n", beside);
     CHECK(biased[3] - light[3] == Approx(0.25));
-    const std::vector<double> chance = answers("light_randomness = 0.1\n", beside);
+    const std::vector<double> chance = answers_of_shadowpyramid("light_randomness = 0.1\n", beside);
     CHECK(chance[2] != light[2]);
     CHECK(std::abs(chance[2] - light[2]) <= 0.1);
-    CHECK(chance == answers("light_randomness = 0.1\n", beside));
+    CHECK(chance == answers_of_shadowpyramid("light_randomness = 0.1\n", beside));
 }
 
 namespace {
@@ -115,7 +115,8 @@ TEST_CASE("with the numbers of cpfg, y begins at 0 and is cut off, and the gradi
         questions.push_back({place, {i < 20 ? 1.0 : 0.0, 0, 0, 0}});
         if (i < 20) table.cast(place);
     }
-    const std::vector<double> light = answers("grid_size = 11\ngrid_span = 10\nnumbers = \"cpfg\"\n", questions);
+    const std::vector<double> light =
+        answers_of_shadowpyramid("grid_size = 11\ngrid_span = 10\nnumbers = \"cpfg\"\n", questions);
     double wrong = 0;
     for (std::size_t i = 0; i < questions.size(); ++i) {
         const glm::dvec3& place = questions[i].position;
@@ -128,7 +129,8 @@ TEST_CASE("with the numbers of cpfg, y begins at 0 and is cut off, and the gradi
         }
     }
     CHECK(wrong < 1e-5);
-    CHECK(answers("grid_size = 11\ngrid_span = 10\nnumbers = \"cpfg\"\n", {{{0, -9, 0}, {1}}})[0] == 1);
+    CHECK(answers_of_shadowpyramid("grid_size = 11\ngrid_span = 10\nnumbers = \"cpfg\"\n", {{{0, -9, 0}, {1}}})[0] ==
+          1);
 }
 
 TEST_CASE("light among pyramids is the same bytes in any order of queries and on any number of threads",
@@ -139,20 +141,21 @@ TEST_CASE("light among pyramids is the same bytes in any order of queries and on
         questions.push_back(
             {{20 * samples.uniform() - 10, 20 * samples.uniform(), 20 * samples.uniform() - 10}, {i % 3 - 1.0}});
     }
-    std::vector<double> light = answers("", questions);
+    std::vector<double> light = answers_of_shadowpyramid("", questions);
     {
         const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-        CHECK(answers("", questions) == light);
+        CHECK(answers_of_shadowpyramid("", questions) == light);
     }
     std::reverse(questions.begin(), questions.end());
     std::reverse(light.begin(), light.end());
-    CHECK(answers("", questions) == light);
+    CHECK(answers_of_shadowpyramid("", questions) == light);
 }
 
 TEST_CASE("outside the grid is full light, and casts from there shade nothing", "[shadowpyramid]") {
     const std::string small = "grid_size = 11\ngrid_span = 10\n";
-    CHECK(answers(small, {{{0, 25, 0}, {1}}, {{0, 24, 0}, {0}}, {{1e200, 0, 0}, {1}}}) == std::vector<double>{1, 1, 1});
-    CHECK(answers(small, {{{0, -10, 0}, {1}}})[0] == Approx(0.42));
+    CHECK(answers_of_shadowpyramid(small, {{{0, 25, 0}, {1}}, {{0, 24, 0}, {0}}, {{1e200, 0, 0}, {1}}}) ==
+          std::vector<double>{1, 1, 1});
+    CHECK(answers_of_shadowpyramid(small, {{{0, -10, 0}, {1}}})[0] == Approx(0.42));
 }
 
 TEST_CASE("more shadow than memory holds ends the run with its reason", "[shadowpyramid]") {
@@ -162,5 +165,5 @@ TEST_CASE("more shadow than memory holds ends the run with its reason", "[shadow
     AskingPlants plants;
     plants.add({{{0, 0, 0}, {1}}});
     CHECK(lacks(message_of([&] { plants.exchange(environment); }), {"1 shadows of 60 layers", "memory"}) == "");
-    CHECK(lacks(message_of([] { answers("grid_size = 1\n", {}); }), {"grid_size"}) == "");
+    CHECK(lacks(message_of([] { answers_of_shadowpyramid("grid_size = 1\n", {}); }), {"grid_size"}) == "");
 }

@@ -53,14 +53,14 @@ private:
     TemporaryFolder folder_;
 };
 
-std::vector<double> answers(Environment& environment, const std::vector<Asked>& questions, int step) {
+std::vector<double> answers_of_vdb(Environment& environment, const std::vector<Asked>& questions, int step) {
     AskingPlants plants;
     plants.add(questions).exchange(environment, step);
     return plants.parameters();
 }
 
-std::vector<double> answers(Environment environment, const std::vector<Asked>& questions) {
-    return answers(environment, questions, 0);
+std::vector<double> answers_of_vdb(Environment environment, const std::vector<Asked>& questions) {
+    return answers_of_vdb(environment, questions, 0);
 }
 
 /// Heat at three times: it rises by 3 degrees a metre more in the first four steps, and falls in the other six.
@@ -83,14 +83,14 @@ public:
 }  // namespace
 
 TEST_CASE_METHOD(Files, "vdb answers the value and the slope of a grid of numbers", "[vdb]") {
-    CHECK(answers(environment("file = 'air.vdb'\n"), {{{0.25, 1, -1.5}, {0}}, {{1, 0.75, 0.5}, {0, 0, 0, 0}}}) ==
+    CHECK(answers_of_vdb(environment("file = 'air.vdb'\n"), {{{0.25, 1, -1.5}, {0}}, {{1, 0.75, 0.5}, {0, 0, 0, 0}}}) ==
           std::vector<double>{18.75, 21.5, 2, -1, 0.5});
 }
 
 TEST_CASE_METHOD(Files, "vdb answers the vector of a grid of vectors, and has a field for each component", "[vdb]") {
     Environment air = environment("file = 'air.vdb'\ngrid = 'wind'\nunit = 'm/s'\n");
     for (const char* name : {"light.x", "light.y", "light.z"}) CHECK(air.fields().need(name).unit == "m/s");
-    CHECK(answers(std::move(air), {{{0.75, 1, -1.25}, {0, 0, 0}}}) == std::vector<double>{-1.25, 0.25, -0.75});
+    CHECK(answers_of_vdb(std::move(air), {{{0.75, 1, -1.25}, {0, 0, 0}}}) == std::vector<double>{-1.25, 0.25, -0.75});
 }
 
 TEST_CASE_METHOD(Files, "vdb refuses what is no grid", "[vdb]") {
@@ -106,20 +106,20 @@ TEST_CASE_METHOD(HeatInTime, "maps change by straight lines between their times"
     Environment soil = environment(maps() + "unit = 'K'\n");
     const std::vector<Asked> asked = {{{0.75, 0, 0.3}, {0, 0, 0, 0}}};
     const auto expected = [](double slope) { return std::vector<double>{0.75 * slope, slope, 0, 0}; };
-    CHECK(answers(soil, asked, 0) == expected(2));
-    CHECK(answers(soil, asked, 1) == expected(2.75));
-    CHECK(answers(soil, asked, 3) == expected(4.25));
-    CHECK(answers(soil, asked, 4) == expected(5));
-    CHECK(answers(soil, asked, 7) == expected(2));
-    CHECK(answers(soil, asked, 10) == expected(-1));
+    CHECK(answers_of_vdb(soil, asked, 0) == expected(2));
+    CHECK(answers_of_vdb(soil, asked, 1) == expected(2.75));
+    CHECK(answers_of_vdb(soil, asked, 3) == expected(4.25));
+    CHECK(answers_of_vdb(soil, asked, 4) == expected(5));
+    CHECK(answers_of_vdb(soil, asked, 7) == expected(2));
+    CHECK(answers_of_vdb(soil, asked, 10) == expected(-1));
     CHECK(soil.fields().need("light").changes);
-    CHECK(lacks(message_of([&] { answers(soil, asked, 11); }),
+    CHECK(lacks(message_of([&] { answers_of_vdb(soil, asked, 11); }),
                 {"'light' goes from time 0 to 10, but the run is at 11: give it more maps"}) == "");
 }
 
 TEST_CASE_METHOD(HeatInTime, "one map in time holds for ever, as a file does", "[vdb]") {
     Environment soil = environment("maps = [{ time = 3, file = 'heat1.vdb' }]\n");
-    CHECK(answers(soil, {{{0.75, 0, 0.3}, {0}}}, 50) == std::vector<double>{3.75});
+    CHECK(answers_of_vdb(soil, {{{0.75, 0, 0.3}, {0}}}, 50) == std::vector<double>{3.75});
     CHECK_FALSE(soil.fields().need("light").changes);
 }
 
@@ -129,14 +129,14 @@ TEST_CASE_METHOD(HeatInTime, "maps whose voxels are not the same mix with the ba
     spot->tree().setValue(openvdb::Coord(40, 0, 0), 16);
     write("spot.vdb", spot);
     Environment soil = environment("maps = [{ time = 0, file = 'heat0.vdb' }, { time = 4, file = 'spot.vdb' }]\n");
-    CHECK(answers(soil, {{{20, 0, 0}, {0}}, {{2, 0, 0}, {0}}}, 1) == std::vector<double>{4, 5});
+    CHECK(answers_of_vdb(soil, {{{20, 0, 0}, {0}}, {{2, 0, 0}, {0}}}, 1) == std::vector<double>{4, 5});
 }
 
 TEST_CASE_METHOD(HeatInTime, "maps of vectors change in time, too", "[vdb]") {
     write("calm.vdb", grid_of<openvdb::Vec3SGrid>("wind", [](const openvdb::Vec3d&) { return openvdb::Vec3f(0); }));
     Environment air =
         environment("grid = 'wind'\nmaps = [{ time = 0, file = 'air.vdb' }, { time = 4, file = 'calm.vdb' }]\n");
-    CHECK(answers(air, {{{0.75, 1, -1.25}, {0, 0, 0}}}, 3) == std::vector<double>{-0.3125, 0.0625, -0.1875});
+    CHECK(answers_of_vdb(air, {{{0.75, 1, -1.25}, {0, 0, 0}}}, 3) == std::vector<double>{-0.3125, 0.0625, -0.1875});
 }
 
 TEST_CASE_METHOD(HeatInTime, "vdb refuses maps that do not follow each other or do not match", "[vdb]") {

@@ -11,7 +11,7 @@ using namespace espalier::environment;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A lamp downwards whose light falls off as the cosine of the angle: Lambert's law.
 const std::string cosine_file = [] {

@@ -13,7 +13,7 @@ using namespace espalier::environment;
 
 namespace {
 
-const std::string black = "bands.par = { leaf = [0, 0], stem = 0, soil = 0 }\n";
+const std::string all_absorbed = "bands.par = { leaf = [0, 0], stem = 0, soil = 0 }\n";
 
 }  // namespace
 
@@ -122,7 +122,7 @@ TEST_CASE("the surface of a ball has its area, and faces outwards", "[rays]") {
 }
 
 TEST_CASE("sensors count the light that passes them, and take none of it", "[ray-light]") {
-    const std::string lines = "periodic = true\npaths = 50000\n" + black + "bands.nir = {}\n" + sun_at(0.5);
+    const std::string lines = "periodic = true\npaths = 50000\n" + all_absorbed + "bands.nir = {}\n" + sun_at(0.5);
     const std::string sensors =
         "sensors = [{ name = 'top', at = [1, 2.99, 1], size = [2, 2] },\n"
         "{ name = 'below', at = [1, 0.5, 1], normal = [0, -1, 0], size = [1, 1] },\n"

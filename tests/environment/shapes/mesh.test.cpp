@@ -26,7 +26,7 @@ std::string mesh_table(const std::filesystem::path& file, double voxel) {
     return fmt::format("shape = 'mesh'\nfile = '{}'\nvoxel = {}", file.string(), voxel);
 }
 
-std::string message_of(const std::filesystem::path& file, const std::string& more = "") {
+std::string refusal_of(const std::filesystem::path& file, const std::string& more = "") {
     try {
         shape_of(fmt::format("shape = 'mesh'\nfile = '{}'\n{}", file.string(), more));
     } catch (const UserError& error) {
@@ -106,29 +106,29 @@ TEST_CASE("a bad mesh is refused with its name and what is wrong", "[shape]") {
         write_text(folder.path() / name, text);
         return folder.path() / name;
     };
-    CHECK_THAT(message_of(folder.path() / "none.ply"),
+    CHECK_THAT(refusal_of(folder.path() / "none.ply"),
                Contains("test.toml:2") && Contains("there is no file") && Contains("none.ply"));
-    CHECK_THAT(message_of(folder.path()), Contains("cannot be read"));
-    CHECK_THAT(message_of(file("text.ply", "Dear reader,\nno mesh here.\n")),
+    CHECK_THAT(refusal_of(folder.path()), Contains("cannot be read"));
+    CHECK_THAT(refusal_of(file("text.ply", "Dear reader,\nno mesh here.\n")),
                Contains("text.ply") && Contains("not a whole"));
-    CHECK_THAT(message_of(file("text.obj", "Dear reader,\nno mesh here.\n")), Contains("text.obj"));
-    CHECK_THAT(message_of(file("text.stl", "Dear reader,\nno mesh here.\n")), Contains("text.stl"));
-    CHECK_THAT(message_of(file("text.xyz", tetrahedron)), Contains("must end in .obj, .stl or .ply"));
-    CHECK_THAT(message_of(file("zero.ply", "")), Contains("zero.ply"));
-    CHECK_THAT(message_of(file("zero.obj", "")), Contains("zero.obj") && Contains("empty"));
-    CHECK_THAT(message_of(file("zero.stl", "")), Contains("zero.stl"));
-    CHECK_THAT(message_of(file("points.obj", "v 0 0 0\nv 1 0 0\n")), Contains("empty"));
-    CHECK_THAT(message_of(file("open.obj", std::string(tetrahedron, std::string(tetrahedron).size() - 8))),
+    CHECK_THAT(refusal_of(file("text.obj", "Dear reader,\nno mesh here.\n")), Contains("text.obj"));
+    CHECK_THAT(refusal_of(file("text.stl", "Dear reader,\nno mesh here.\n")), Contains("text.stl"));
+    CHECK_THAT(refusal_of(file("text.xyz", tetrahedron)), Contains("must end in .obj, .stl or .ply"));
+    CHECK_THAT(refusal_of(file("zero.ply", "")), Contains("zero.ply"));
+    CHECK_THAT(refusal_of(file("zero.obj", "")), Contains("zero.obj") && Contains("empty"));
+    CHECK_THAT(refusal_of(file("zero.stl", "")), Contains("zero.stl"));
+    CHECK_THAT(refusal_of(file("points.obj", "v 0 0 0\nv 1 0 0\n")), Contains("empty"));
+    CHECK_THAT(refusal_of(file("open.obj", std::string(tetrahedron, std::string(tetrahedron).size() - 8))),
                Contains("not closed: 3 of its edges are open"));
-    CHECK_THAT(message_of(file("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n")), Contains("no volume"));
-    CHECK_THAT(message_of(file("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")), Contains("index.obj"));
-    CHECK_THAT(message_of(file("zero_index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n")), Contains("zero_index.obj"));
-    CHECK_THAT(message_of(file("good.obj", tetrahedron)), Contains("accepted"));
-    CHECK_THAT(message_of(folder.path() / "good.obj", "voxel = 1e-9"),
+    CHECK_THAT(refusal_of(file("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n")), Contains("no volume"));
+    CHECK_THAT(refusal_of(file("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")), Contains("index.obj"));
+    CHECK_THAT(refusal_of(file("zero_index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n")), Contains("zero_index.obj"));
+    CHECK_THAT(refusal_of(file("good.obj", tetrahedron)), Contains("accepted"));
+    CHECK_THAT(refusal_of(folder.path() / "good.obj", "voxel = 1e-9"),
                Contains("test.toml:3") && Contains("too small"));
-    CHECK_THAT(message_of(folder.path() / "good.obj", "voxel = 1e-6"), Contains("GB"));
-    CHECK_THAT(message_of(folder.path() / "good.obj", "voxel = 10"), Contains("thinner"));
-    CHECK_THAT(message_of(folder.path() / "good.obj", "voxel = 0"), Contains("'voxel' must be greater than 0"));
+    CHECK_THAT(refusal_of(folder.path() / "good.obj", "voxel = 1e-6"), Contains("GB"));
+    CHECK_THAT(refusal_of(folder.path() / "good.obj", "voxel = 10"), Contains("thinner"));
+    CHECK_THAT(refusal_of(folder.path() / "good.obj", "voxel = 0"), Contains("'voxel' must be greater than 0"));
 }
 
 TEST_CASE("a PLY with a point that is not a number, or cut short anywhere, is refused", "[shape]") {
@@ -139,7 +139,7 @@ TEST_CASE("a PLY with a point that is not a number, or cut short anywhere, is re
     const std::string points = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n", faces = "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
     const auto message = [&](const std::string& text) {
         write_text(folder.path() / "mesh.ply", text);
-        return message_of(folder.path() / "mesh.ply");
+        return refusal_of(folder.path() / "mesh.ply");
     };
     CHECK(message(header + points + faces) == "accepted");
     CHECK_THAT(message(header + "0 0 0\n1 0 0\n0 nan 0\n0 0 1\n" + faces),

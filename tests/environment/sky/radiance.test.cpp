@@ -12,7 +12,7 @@ using namespace espalier::environment;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 glm::dvec3 at(double zenith, double round) {
     return {std::sin(zenith) * std::cos(round), std::cos(zenith), std::sin(zenith) * std::sin(round)};

@@ -11,7 +11,7 @@ using namespace espalier::test;
 
 namespace {
 
-const std::string straw =
+const std::string straw_of_boxes =
     "define{ start[0,1,0,0]; straw[0.5:0.3,0.8:0.3,0,30:10]; } rules{ start -> (straw); straw -> (straw); }";
 
 std::vector<Node> skeleton_after(const std::string& description, int generations, DerivationSettings settings = {}) {
@@ -106,11 +106,11 @@ TEST_CASE("a component that has slaves on a right side still has those of its ru
 }
 
 TEST_CASE("the straw has one component more in each generation", "[sdl]") {
-    for (int n = 0; n <= 12; ++n) CHECK(skeleton_after(straw, n).size() == std::size_t(1 + n));
+    for (int n = 0; n <= 12; ++n) CHECK(skeleton_after(straw_of_boxes, n).size() == std::size_t(1 + n));
 }
 
 TEST_CASE("the components of the straw keep within the intervals that mutation sums up", "[sdl]") {
-    for (const Node& node : skeleton_after(straw, 10)) {
+    for (const Node& node : skeleton_after(straw_of_boxes, 10)) {
         const int i = node.master + 1;  // each is the slave of the one before
         if (i > 0) {
             CHECK(node.begin >= 0.2);
@@ -151,7 +151,7 @@ TEST_CASE("mutation depends on the seed alone, and what is drawn stays as the pl
     const auto grown = [](int generations, std::uint64_t seed) {
         DerivationSettings settings;
         settings.seed = seed;
-        return canonical(skeleton_after(straw, generations, std::move(settings)));
+        return canonical(skeleton_after(straw_of_boxes, generations, std::move(settings)));
     };
     CHECK(grown(5, 1) == grown(5, 1));
     CHECK(grown(5, 1) != grown(5, 2));
@@ -244,7 +244,7 @@ TEST_CASE("components may have the names of symbols, functions and keywords", "[
 }
 
 TEST_CASE("the model of the straw is as short as the straw", "[sdl]") {
-    const std::string text = model_text(straw);
+    const std::string text = model_text(straw_of_boxes);
     CHECK(text.find("straw(length, vertical, horizontal, waits) : waits == 1 -->\n"
                     "\tstraw(length, vertical, horizontal, 0)\n"
                     "\t[f(length * MUTATED(0.5, 0.3)) straw(length + MUTATED(0.8, 0.3), vertical, "

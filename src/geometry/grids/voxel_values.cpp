@@ -1,0 +1,75 @@
+#include "geometry/grids/voxel_values.h"
+
+#include "espalier/geometry/openvdb_grid.h"
+
+#include <openvdb/tools/Dense.h>
+
+namespace espalier::geometry {
+
+struct VoxelValues::Writing {
+    std::shared_ptr<FieldGrid> field;
+    openvdb::FloatGrid::Accessor values;
+
+    openvdb::Coord shown(const glm::ivec3& at) {
+        const openvdb::Coord voxel(at.x, at.y, at.z);
+        field->box.expand(voxel);
+        return voxel;
+    }
+};
+
+VoxelValues::VoxelValues(double voxel, const glm::dvec3& origin) {
+    initialize_openvdb();
+    auto field = std::make_shared<FieldGrid>();
+    field->grid = openvdb::FloatGrid::create(0);
+    field->grid->setTransform(cell_centred_transform(voxel, origin));
+    writing_ = std::make_unique<Writing>(Writing{field, field->grid->getAccessor()});
+}
+
+VoxelValues::~VoxelValues() = default;
+
+void VoxelValues::set(const glm::ivec3& at, float value) {
+    writing_->values.setValue(writing_->shown(at), value);
+}
+
+void VoxelValues::add(const glm::ivec3& at, float value) {
+    const openvdb::Coord voxel = writing_->shown(at);
+    writing_->values.setValue(voxel, writing_->values.getValue(voxel) + value);
+}
+
+void VoxelValues::fill(const glm::ivec3& size, std::span<const float> values) {
+    show({0, 0, 0}, size - 1);
+    const openvdb::CoordBBox box({0, 0, 0}, {size.x - 1, size.y - 1, size.z - 1});
+    const openvdb::tools::Dense<const float, openvdb::tools::LayoutXYZ> dense(box, values.data());
+    openvdb::tools::copyFromDense(dense, *writing_->field->grid, 0.0f);
+}
+
+void VoxelValues::show(const glm::ivec3& least, const glm::ivec3& most) {
+    writing_->shown(least);
+    writing_->shown(most);
+}
+
+std::shared_ptr<const FieldGrid> VoxelValues::grid() const {
+    return writing_->field;
+}
+
+struct VoxelReader::Reading {
+    std::shared_ptr<const FieldGrid> field;
+    openvdb::FloatGrid::ConstAccessor values;
+};
+
+VoxelReader::VoxelReader(std::shared_ptr<const FieldGrid> field)
+    : reading_(new Reading{field, field->grid->getConstAccessor()}) {}
+
+VoxelReader::~VoxelReader() = default;
+
+float VoxelReader::value(const glm::dvec3& place) const {
+    const openvdb::Vec3d index =
+        reading_->field->grid->transform().worldToIndex(openvdb::Vec3d(place.x, place.y, place.z));
+    return reading_->values.getValue(openvdb::Coord::round(index));
+}
+
+std::size_t bytes_held(const FieldGrid& field) {
+    return field.grid->memUsage();
+}
+
+}  // namespace espalier::geometry
