@@ -175,10 +175,10 @@ std::string with(std::string text, const std::string& what, const std::string& i
 
 TEST_CASE("a growth lets go of the steps of the one before it", "[studio]") {
     const TemporaryFolder folder;
-    Grower grower(folder.write("tree.l", tree));
-    auto first = grower.grow(tree, nullptr, 6);
+    Grower grower(folder.write("tree.l", redrawn_tree));
+    auto first = grower.grow(redrawn_tree, nullptr, 6);
     const std::weak_ptr<const KeptSteps> steps = first->growth->shared_steps();
-    const auto second = grower.grow(with(tree, "ANGLE 30", "ANGLE 45"), first->growth.get(), 6);
+    const auto second = grower.grow(with(redrawn_tree, "ANGLE 30", "ANGLE 45"), first->growth.get(), 6);
     REQUIRE(second->is_whole);
     CHECK_FALSE(steps.expired());
     first.reset();

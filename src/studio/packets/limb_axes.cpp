@@ -10,9 +10,8 @@
 namespace espalier::studio {
 namespace {
 
-using Internode = KeptAxes::Internode;
-
-static_assert(sizeof(Internode) == 48 && std::is_trivially_copyable_v<Internode>, "it is kept as it lies in memory");
+static_assert(sizeof(KeptAxes::Internode) == 48 && std::is_trivially_copyable_v<KeptAxes::Internode>,
+              "it is kept as it lies in memory");
 
 /// Lines whose points follow each other.
 class Lines {
@@ -22,7 +21,7 @@ public:
         geometry_.lines.connectivity.reserve(2 * internodes);
     }
 
-    void add(const Internode& internode, std::uint32_t plant) {
+    void add(const KeptAxes::Internode& internode, std::uint32_t plant) {
         if (!internode.goes_on) {
             close();
             begin(internode, plant);
@@ -40,7 +39,7 @@ public:
     }
 
 private:
-    void begin(const Internode& internode, std::uint32_t plant) {
+    void begin(const KeptAxes::Internode& internode, std::uint32_t plant) {
         note(geometry_.of_cells, internode, plant);
         geometry_.textures.push_back(internode.texture);
         add_point(internode.base, internode.base_radius, internode, plant);
@@ -51,7 +50,7 @@ private:
         if (geometry_.lines.offsets.back() < points) geometry_.lines.offsets.push_back(points);
     }
 
-    void add_point(const glm::vec3& point, float radius, const Internode& internode, std::uint32_t plant) {
+    void add_point(const glm::vec3& point, float radius, const KeptAxes::Internode& internode, std::uint32_t plant) {
         geometry_.lines.connectivity.push_back(static_cast<std::int32_t>(geometry_.points.size()));
         geometry_.points.push_back(point);
         geometry_.radii.push_back(radius);
@@ -59,7 +58,7 @@ private:
         note(geometry_.of_points, internode, plant);
     }
 
-    static void note(FrameAttributes& of, const Internode& internode, std::uint32_t plant) {
+    static void note(FrameAttributes& of, const KeptAxes::Internode& internode, std::uint32_t plant) {
         of.plants.push_back(plant);
         of.orders.push_back(internode.order);
         of.rgb.push_back(internode.rgb);
@@ -94,7 +93,7 @@ KeptAxes::KeptAxes(std::string_view bytes) {
     take(&plants, sizeof plants);
     ends_.resize(plants);
     take(ends_.data(), plants * sizeof ends_[0]);
-    internodes_.resize(bytes.size() / sizeof(Internode));
+    internodes_.resize(bytes.size() / sizeof(KeptAxes::Internode));
     take(internodes_.data(), bytes.size());
 }
 
