@@ -5,16 +5,27 @@
 
 #include <nlohmann/json.hpp>
 
+#include <iterator>
+
 namespace {
 
 using namespace pages;
+
+/// A file, or one that compiles it together with others.
+bool compiles(const fs::path& unit, const std::string& source) {
+    if (unit.string().ends_with(source)) return true;
+    if (unit.parent_path().filename() != "Unity") return false;
+    std::ifstream file(unit);
+    const std::string text((std::istreambuf_iterator<char>(file)), {});
+    return text.find("/" + source + "\"") != std::string::npos;
+}
 
 /// How a file is compiled, with another file in its place and nothing written.
 std::string check_of(const std::string& source, const fs::path& instead) {
     std::ifstream file(ESPALIER_BUILD_DIR "/compile_commands.json");
     for (const auto& entry : nlohmann::json::parse(file)) {
         std::string command = entry["command"].get<std::string>();
-        if (!entry["file"].get<std::string>().ends_with(source)) continue;
+        if (!compiles(entry["file"].get<std::string>(), source)) continue;
         command.erase(command.find(" -o "));
         return "cd '" + entry["directory"].get<std::string>() + "' && " + command + " -fsyntax-only -I '" +
                (root / fs::path(source).parent_path()).string() + "' '" + instead.string() + "'";
