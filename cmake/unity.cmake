@@ -1,4 +1,4 @@
-# A first build from nothing takes half of the time if neighbouring files are compiled at once, and a small change then takes
+# A first build from nothing takes far less time if neighbouring files are compiled at once, and a small change then takes
 # longer. Nothing is said of shadows then: a local name may be that of something unnamed of a neighbour.
 option(ESPALIER_UNITY "compile several files at once: those of a folder, and of small folders together" OFF)
 set(files_at_once 10)  # more need more memory than `./dev` counts on, and leave cores idle at the end
