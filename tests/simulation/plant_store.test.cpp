@@ -177,11 +177,8 @@ TEST_CASE_METHOD(Stored, "what is drawn of plants waits only for recorders that 
 }
 
 TEST_CASE_METHOD(Stored, "less memory suffices where plants wait on disk", "[simulation][store]") {
-    write("large.l", "lsystem: 1\nderivation length: 15\naxiom: A\nA --> F[+A]A\nendlsystem\n");
-    const Scene described = read_scene_text(
-        "[[plant]]\nmodel = 'large.l'\ngrid = { columns = 16, rows = 1, spacing = 9 }\n[timeline]\nevery = "
-        "15\nlifespans = false\n",
-        "scene.toml", path());
+    write("doubling.l", doubling);
+    const Scene described = read_scene_text(doubling_stand, "scene.toml", path());
     const auto with_little = [](RunOptions& options) { options.memory = std::size_t{100} << 20; };
     CHECK_THROWS_WITH(run_with(described, "whole", 0, 1, with_little), Contains("--memory"));
     run_with(described, "stored", 16, 1, with_little);

@@ -149,11 +149,8 @@ TEST_CASE_METHOD(Spread, "the first rank gets the plants of others part by part,
 }
 
 TEST_CASE_METHOD(Spread, "what other ranks send must fit into the memory", "[simulation][ranks]") {
-    write("large.l", "lsystem: 1\nderivation length: 15\naxiom: A\nA --> F[+A]A\nendlsystem\n");
-    const Scene described = read_scene_text(
-        "[[plant]]\nmodel = 'large.l'\ngrid = { columns = 16, rows = 1, spacing = 9 }\n[timeline]\nevery = "
-        "15\nlifespans = false\nstatistics = false\n",
-        "scene.toml", path());
+    write("doubling.l", doubling);
+    const Scene described = read_scene_text(doubling_stand + std::string("statistics = false\n"), "scene.toml", path());
     const auto with = [](std::size_t bytes) {
         return [bytes](RunOptions& options, Ranks&) { options.memory = bytes; };
     };

@@ -13,6 +13,12 @@ inline const char* const shading =
     "A(x) --> F(x)[-A(x*0.8)?light(1)]A(x*0.99)?light(1) : 2\n"
     "?light(q) : q < 0.2 --> \nF(x) : x < 4 --> F(x*1.01)\nhomomorphism\nA(x) --> @O(0.1)\nendlsystem\n";
 
+// 16 plants of 160,000 modules at the end; recorded are the first frame and the last.
+inline const char* const doubling = "lsystem: 1\nderivation length: 15\naxiom: A\nA --> F[+A]A\nendlsystem\n";
+inline const char* const doubling_stand =
+    "[[plant]]\nmodel = 'doubling.l'\ngrid = { columns = 16, rows = 1, spacing = 9 }\n"
+    "[timeline]\nevery = 15\nlifespans = false\n";
+
 inline const char* const light =
     "[environment.light]\nprocess = 'voxel-shade'\nvoxel = 0.5\nmode = 'attenuate'\ndepth = 5\n";
 

@@ -154,6 +154,11 @@ std::vector<std::uint32_t> by_axis(std::span<const Drawn> internodes) {
     return sorted;
 }
 
+/// Whether the line of one internode goes on with the next.
+inline bool goes_on(const Internode& before, const Internode& next) {
+    return before.axis == next.axis && before.tip == next.base;
+}
+
 /// Calls visit(number, begins) for each internode, by axis; `begins` says that it is the first of a line, because its
 /// axis begins or because it does not begin where the one before has ended.
 template <class Visit>
@@ -161,7 +166,7 @@ void for_lines(std::span<const Internode> internodes, const Visit& visit) {
     const Internode* last = nullptr;
     for (const std::uint32_t number : by_axis(internodes)) {
         const Internode& internode = internodes[number];
-        visit(number, !last || last->axis != internode.axis || last->tip != internode.base);
+        visit(number, !last || !goes_on(*last, internode));
         last = &internode;
     }
 }

@@ -16,7 +16,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
+#include <optional>
+#include <utility>
 
 namespace espalier::picture {
 namespace {
@@ -89,7 +90,7 @@ private:
         unfolding_.reset();
         if (!pieces_ || pieces_->step != frame.step) take_pieces(frame);
         for (const RecordedFrame& piece : pieces_->frames) {
-            stage.show_piece(piece, pieces_->whole, pieces_->daylight);
+            stage.show_piece(piece, pieces_->whole, pieces_->daylight ? &*pieces_->daylight : nullptr);
             stage.place_camera(place, job_.follow);
             painter_.add();
         }
@@ -98,17 +99,16 @@ private:
 
     void take_pieces(const RecordedFrame& frame) {
         Stage& stage = painter_.stage();
-        pieces_ = {frame.step, frame.pieces(), stage.survey(std::array{&frame}), nullptr};
+        pieces_ = {frame.step, frame.pieces(), stage.survey(std::array{&frame}), std::nullopt};
         const PictureStyle& style = stage.style();
         const Box& box = pieces_->whole.box;
         if (!style.shading || stage.is_flat() || box.empty()) return;
-        const auto daylight =
-            std::make_shared<Daylight>(box.lower, box.upper, direction_at(style.sun_azimuth, style.sun_elevation));
+        Daylight daylight(box.lower, box.upper, direction_at(style.sun_azimuth, style.sun_elevation));
         for (const RecordedFrame& piece : pieces_->frames) {
             stage.show_piece(piece, pieces_->whole, nullptr);
-            stage.add_occluders(*daylight);
+            stage.add_occluders(daylight);
         }
-        pieces_->daylight = daylight;
+        pieces_->daylight = std::move(daylight);
     }
 
     void show_between(std::size_t frame, double share) {
@@ -162,7 +162,7 @@ private:
         int step;
         std::vector<RecordedFrame> frames;
         StageSurvey whole;
-        std::shared_ptr<const Daylight> daylight;
+        std::optional<Daylight> daylight;  ///< none: no shading
     };
 
     const RenderJob& job_;

@@ -85,8 +85,6 @@ public:
     std::shared_ptr<const FrameGeometry> geometry_ = std::make_shared<FrameGeometry>();
     std::optional<StageSurvey> survey_;  ///< what `settle` was given
     StageSurvey here_;                   ///< survey of the frame that is shown
-    bool is_piece_ = false;              ///< `here_` was given, because only a part of the frame is here
-    std::shared_ptr<const Daylight> piece_daylight_;
     std::optional<Highlight> highlighted_;
 
     struct Part {
@@ -114,25 +112,22 @@ public:
         if (frame_) rebuild();
     }
 
-    void show_piece(const RecordedFrame& piece, const StageSurvey& whole, std::shared_ptr<const Daylight> daylight) {
-        here_ = whole;
-        piece_daylight_ = std::move(daylight);
-        is_piece_ = true;
-        show(piece, load(piece));
-        is_piece_ = false;
-        piece_daylight_ = nullptr;
-    }
-
     std::vector<Occluder> occluders() const {
         std::vector<Occluder> occluders;
         for (const Part& part : parts_) occluders.push_back({points_of(part.mesh), corners_of(part.mesh)});
         return occluders;
     }
 
-    void show(const RecordedFrame& frame, std::shared_ptr<const FrameGeometry> geometry) {
+    /// What a part of a frame cannot know of all of it.
+    struct Whole {
+        const StageSurvey& survey;
+        const Daylight* daylight;  ///< null: no shading
+    };
+
+    void show(const RecordedFrame& frame, std::shared_ptr<const FrameGeometry> geometry, const Whole* whole = nullptr) {
         geometry_ = style_.bark.empty() ? std::move(geometry) : dressed(*geometry, style_.bark);
         frame_ = frame;
-        rebuild();
+        rebuild(whole);
     }
 
     std::shared_ptr<const FrameGeometry> load(const RecordedFrame& frame) const {
@@ -235,19 +230,17 @@ private:
         return here_.range.value_or(std::array<double, 2>{0, 1});
     }
 
-    void rebuild() {
+    void rebuild(const Whole* whole = nullptr) {
         for (const Part& part : parts_) renderer_->RemoveActor(part.actor);
         for (const auto& prop : others_) renderer_->RemoveViewProp(prop);
         parts_.clear();
         others_.clear();
         silhouettes_.clear();
-        if (!is_piece_) {
-            here_ = {};
-            add_survey(*frame_, *geometry_, here_);
-        }
+        here_ = whole ? whole->survey : StageSurvey{};
+        if (!whole) add_survey(*frame_, *geometry_, here_);
         legend_->legend = {};
         build_meshes();
-        if (!style_.light) add_lights_and_colours();
+        if (!style_.light) add_lights_and_colours(whole);
         if (style_.light && !style_.fields.empty()) add_silhouettes();
         add_field_props();
         if (!style_.light) add_background_scene();
@@ -283,12 +276,12 @@ private:
         }
     }
 
-    void add_lights_and_colours() {
+    void add_lights_and_colours(const Whole* whole) {
         const glm::vec3 sun = direction_at(style_.sun_azimuth, style_.sun_elevation);
         set_lights(*renderer_, sun);
         std::optional<Daylight> own;
-        if (style_.shading && !is_flat() && !is_piece_) own.emplace(occluders(), sun);
-        const Daylight* const daylight = own ? &*own : piece_daylight_.get();
+        if (style_.shading && !is_flat() && !whole) own.emplace(occluders(), sun);
+        const Daylight* const daylight = whole ? whole->daylight : own ? &*own : nullptr;
         const std::vector<Rgb> colours = colours_of_points();
         // Colours that mean a number are only tinged, or they could not be read.
         const float shade = colouring_->is_natural() ? 1.0F : 0.5F;
@@ -476,8 +469,9 @@ void Stage::show(const RecordedFrame& frame, std::shared_ptr<const FrameGeometry
     body_->show(frame, std::move(geometry));
 }
 
-void Stage::show_piece(const RecordedFrame& piece, const StageSurvey& whole, std::shared_ptr<const Daylight> daylight) {
-    body_->show_piece(piece, whole, std::move(daylight));
+void Stage::show_piece(const RecordedFrame& piece, const StageSurvey& whole, const Daylight* daylight) {
+    const Body::Whole all{whole, daylight};
+    body_->show(piece, body_->load(piece), &all);
 }
 
 void Stage::add_occluders(Daylight& daylight) const {

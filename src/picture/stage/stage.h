@@ -69,7 +69,7 @@ public:
     void show(const RecordedFrame& frame, std::shared_ptr<const FrameGeometry> geometry);
     /// One file of a frame that has several. `whole`: the survey of all of them; `daylight`: what reaches its plants
     /// past those of all, null: no shading.
-    void show_piece(const RecordedFrame& piece, const StageSurvey& whole, std::shared_ptr<const Daylight> daylight);
+    void show_piece(const RecordedFrame& piece, const StageSurvey& whole, const Daylight* daylight);
     /// What is shown hides light from other pieces.
     void add_occluders(Daylight& daylight) const;
     const RecordedFrame* shown() const;

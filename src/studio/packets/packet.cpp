@@ -59,7 +59,7 @@ public:
     /// False if it is the first of a line. It stays where it is.
     bool go_on(const Internode& internode) {
         const Internode* const before = std::exchange(last_[internode.axis], &internode);
-        return before && before->tip == internode.base;
+        return before && geometry::goes_on(*before, internode);
     }
 
 private:
