@@ -93,7 +93,7 @@ std::string table_of_process(const std::string& name, const Settings& scene) {
 
 /// What docs/clusters.md says that ranks send each other for each process.
 std::map<std::string, Spreading> spreadings_on_page() {
-    const std::map<std::string, Spreading> meanings{{"queries whose pyramid", Spreading::reach},
+    const std::map<std::string, Spreading> meanings{{"queries whose", Spreading::reach},
                                                     {"nothing", Spreading::reach},
                                                     {"all queries", Spreading::queries},
                                                     {"all plants", Spreading::plants},

@@ -15,6 +15,9 @@
 
 namespace espalier {
 
+/// Leaves, stems and soil that absorb all that they get.
+inline const std::string black = "bands.par = { leaf = [0, 0], stem = 0, soil = 0 }\n";
+
 /// A process of light in a domain of 2 x 3 x 2 m, for two plants.
 inline Environment light_process(const std::string& process, const std::string& lines) {
     EnvironmentContext context;

@@ -67,6 +67,7 @@ TEST_CASE_METHOD(Spread, "a world has the same bytes on any number of ranks", "[
             "[environment.light]\nprocess = 'voxel-shade'\ndomain = { lower = [-2, -1, -2], upper = [8, 9, 6] }\n"
             "voxel = 0.5\nperiodic = true\n"),
         std::string("[environment.light]\nprocess = 'density'\n"),
+        std::string("[environment.light]\nprocess = 'shadowpyramid'\ngrid_size = 81\ngrid_span = 20\n"),
         std::string("[environment.light]\nprocess = 'canopy-light'\nvoxel = 0.5\n"),
         std::string("[[plant.stage]]\nstage = 'pipe-radii'\n[[plant.stage]]\nstage = 'leaves'\n") + light);
     const Scene described = scene(process);
@@ -89,10 +90,14 @@ TEST_CASE_METHOD(Spread, "a world has the same bytes whatever its blocks are", "
 }
 
 TEST_CASE_METHOD(Spread, "only queries that change answers elsewhere are sent", "[simulation][ranks]") {
-    // Two rows of plants that no pyramid connects.
+    const std::string process =
+        GENERATE(std::string(light),
+                 std::string("[environment.light]\nprocess = 'shadowpyramid'\ngrid_size = 4001\ngrid_span = 2000\n"),
+                 std::string("[environment.light]\nprocess = 'honda81'\nradius = 3\n"));
+    // Two rows of plants that nothing connects.
     const auto sent = [&](double apart) {
         const Scene described = read_scene_text(
-            fmt::format("[[plant]]\nmodel = 'plant.l'\npositions = [[0, 0, 0], [{}, 0, 0]]\n{}", apart, light),
+            fmt::format("[[plant]]\nmodel = 'plant.l'\npositions = [[0, 0, 0], [{}, 0, 0]]\n{}", apart, process),
             "scene.toml", path());
         std::array<std::uint64_t, 2> bytes{};
         on_ranks(2, [&](Ranks& ranks) {

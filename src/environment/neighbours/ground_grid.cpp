@@ -1,5 +1,7 @@
 #include "environment/neighbours/ground_grid.h"
 
+#include "environment/neighbours/reach.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -87,6 +89,11 @@ void GroundGrid::add_disc(const glm::dvec2& centre, double radius) {
 
 void GroundGrid::remove_disc(const glm::dvec2& centre, double radius) {
     visit_disc(centre, radius, [](std::uint32_t& count) { count -= count > 0; });
+}
+
+glm::dvec2 GroundGrid::reach(double radius) const {
+    return beyond_rounding *
+           (radius + range_ / glm::dvec2(static_cast<double>(size_[0]), static_cast<double>(size_[1])));
 }
 
 Picture::Colour GroundGrid::colour(std::size_t cell) const {

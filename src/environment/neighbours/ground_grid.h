@@ -30,6 +30,8 @@ public:
     /// Taking away more than there is leaves 0.
     void add_disc(const glm::dvec2& centre, double radius);
     void remove_disc(const glm::dvec2& centre, double radius);
+    /// How far from its centre a disc may be counted: as far as the cells reach that it covers.
+    glm::dvec2 reach(double radius) const;
     void clear() { counts_.assign(counts_.size(), 0); }
 
     std::size_t bytes() const { return counts_.size() * sizeof(std::uint32_t); }

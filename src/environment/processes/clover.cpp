@@ -5,6 +5,7 @@
 
 #include "environment/exchange/answer_statistics.h"
 #include "environment/neighbours/ground_grid.h"
+#include "environment/neighbours/reach.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +50,13 @@ public:
     std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
-    Spreading spreading() const override { return Spreading::queries; }
+    Spreading spreading() const override { return forgets_ ? Spreading::reach : Spreading::queries; }
+    Box reach(const Query& query) const override {
+        if (action(query) == 0) return {};
+        const glm::dvec2 aside = ground_.reach(radius(query));
+        const glm::dvec3& at = query.pose.position;
+        return z_is_up_ ? box_around(at, {aside, everywhere}) : box_around(at, {aside.x, everywhere, aside.y});
+    }
     ProcessMemory memory() const override { return {ground_.bytes()}; }
 
     void save(std::ostream& out) const override { ground_.save(out); }

@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "environment/exchange/answer_statistics.h"
 #include "environment/neighbours/disc_overlap.h"
+#include "environment/neighbours/reach.h"
 #include "environment/parameter_file.h"
 
 #include <algorithm>
@@ -55,7 +56,13 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
-    Spreading spreading() const override { return Spreading::queries; }
+    // With vigour, a disc that falls spares others, which may then eliminate those behind them, and so on.
+    Spreading spreading() const override { return by_vigour_ ? Spreading::queries : Spreading::reach; }
+    // Only discs of at most its size lose against it.
+    Box reach(const Query& query) const override {
+        const double wide = beyond_rounding * 2 * query.parameters[0];
+        return box_around(query.pose.position, {wide, flat_ ? everywhere : wide, wide});
+    }
 
 private:
     // Without vigour: of two that overlap in one group the smaller loses, and two of one size both do.

@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "environment/exchange/answer_statistics.h"
 #include "environment/neighbours/point_grid.h"
+#include "environment/neighbours/reach.h"
 #include "environment/parameter_file.h"
 
 #include <glm/geometric.hpp>
@@ -42,7 +43,11 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
-    Spreading spreading() const override { return Spreading::queries; }
+    Spreading spreading() const override { return Spreading::reach; }
+    Box reach(const Query& query) const override {
+        const double wide = beyond_rounding * radius_;
+        return box_around(query.pose.position, {wide, flat_ ? everywhere : wide, wide});
+    }
 
 private:
     // Within a cell the most vigorous come first. Who is near one of them is dominated; the others keep a radius

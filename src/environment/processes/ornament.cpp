@@ -4,6 +4,7 @@
 
 #include "environment/exchange/answer_statistics.h"
 #include "environment/neighbours/ground_grid.h"
+#include "environment/neighbours/reach.h"
 
 #include <algorithm>
 
@@ -35,7 +36,12 @@ public:
     std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
-    Spreading spreading() const override { return Spreading::queries; }
+    Spreading spreading() const override { return Spreading::reach; }
+    Box reach(const Query& query) const override {
+        if (query.parameters.size() < 2) return {};
+        const glm::dvec2 aside = ground_.reach(query.parameters[1]);
+        return box_around(query.pose.position, {aside, everywhere});
+    }
     ProcessMemory memory() const override { return {ground_.bytes()}; }
 
 private:

@@ -77,7 +77,15 @@ public:
     std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
-    Spreading spreading() const override { return Spreading::queries; }
+    Spreading spreading() const override { return Spreading::reach; }
+    Box reach(const Query& query) const override {
+        if (!(query.parameters[0] > 0)) return {};
+        // Its voxel is up to one away, light is sampled between voxels, and the gradient's samples lie aside.
+        const double aside = radius_ + 3 * voxel_;
+        const double wide = reach(std::max(depth_ - 1, 0)) * voxel_ + aside;
+        const glm::dvec3& at = query.pose.position;
+        return {at - glm::dvec3(wide, depth_ * voxel_ + aside, wide), at + glm::dvec3(wide, aside, wide)};
+    }
 
     ProcessMemory memory() const override { return {2 * light_->memUsage(), true}; }
     void limit_memory(std::size_t bytes) override { memory_ = bytes; }

@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "environment/exchange/answer_statistics.h"
 #include "environment/neighbours/point_grid.h"
+#include "environment/neighbours/reach.h"
 
 #include <glm/geometric.hpp>
 
@@ -54,7 +55,12 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
-    Spreading spreading() const override { return Spreading::queries; }
+    Spreading spreading() const override { return Spreading::reach; }
+    // Rivals at a corner count, whose own corners and edges decide whether they are rivals; the rest is for cells that
+    // are one within the tolerance.
+    Box reach(const Query& query) const override {
+        return box_around(query.pose.position, glm::dvec3(2 * std::max(edge_, corner_) + 10 * tolerance_));
+    }
 
 private:
     static std::vector<std::uint32_t> numbers_up_to(std::size_t count) {

@@ -188,7 +188,7 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return names_.size() == 1 ? std::pair{1, 4} : std::pair{3, 3}; }
-    Spreading spreading() const override { return Spreading::queries; }
+    Spreading spreading() const override { return Spreading::reach; }
     ProcessMemory memory() const override { return {maps_.bytes()}; }
 
 private:

@@ -63,7 +63,7 @@ World::State::State(const Scene& described, std::size_t bytes, const std::filesy
     spread = std::make_unique<Spread>(*ranks, scene, *environment, fields_read);
     spread->mark(plants);
     for (const std::string& note : spread->notes(*environment)) {
-        warnings.push_back({Diagnostic::Severity::warning, {}, note});
+        warnings.push_back({Diagnostic::Severity::warning, Place(), note, ""});
     }
 }
 

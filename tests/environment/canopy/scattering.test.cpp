@@ -9,7 +9,6 @@ using namespace espalier::environment;
 namespace {
 
 using std::numbers::pi;
-const std::string black = "bands.par = { leaf = [0, 0], stem = 0, soil = 0 }\n";
 
 std::string band(double reflected, double transmitted, double soil, const std::string& name = "par") {
     return "bands." + name + " = { leaf = [" + std::to_string(reflected) + ", " + std::to_string(transmitted) +

@@ -19,7 +19,6 @@ Environment canopy_light(const std::string& lines, const Box& domain = {{0, 0, 0
     EnvironmentContext context;
     context.domain = domain;
     context.plants = 2;
-    const std::string black = "bands.par = { leaf = [0, 0], stem = 0, soil = 0 }\n";
     return environment_of("[light]\nprocess = \"canopy-light\"\n" + black + lines, context);
 }
 

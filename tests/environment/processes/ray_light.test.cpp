@@ -15,7 +15,6 @@ namespace {
 using std::numbers::pi;
 
 const std::string sun_above = "sky = { par = 1000, diffuse = 0, sun = [0, 1, 0] }\n";
-const std::string black = "bands.par = { leaf = [0, 0], stem = 0, soil = 0 }\n";
 
 Environment ray_light(const std::string& lines, const std::string& process = "ray-light") {
     EnvironmentContext context;

@@ -10,8 +10,6 @@ using namespace espalier;
 
 namespace {
 
-const std::string black = "bands.par = { leaf = [0, 0], stem = 0, soil = 0 }\n";
-
 void draw_sphere(PlantGeometry& geometry, std::uint32_t module, const glm::dvec3& middle, double diameter) {
     Organ& sphere = geometry.organs.emplace_back();
     sphere.module = module;
