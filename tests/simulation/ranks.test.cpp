@@ -80,6 +80,43 @@ TEST_CASE_METHOD(Spread, "a world has the same bytes on any number of ranks", "[
     }
 }
 
+TEST_CASE_METHOD(Spread, "two roots on two ranks drink from one soil, whose balance is exact", "[simulation][ranks]") {
+    Scene described = read_scene(ESPALIER_SOURCE_DIR "/environments/two-roots.toml");
+    described.steps = 40;
+    run_alone(described);
+    REQUIRE(all_are_silent(run_on(2, described, "shared")));
+    check_same("shared");
+
+    std::array<double, 2> drunk_by{}, drunk{}, missing{}, balance{};  // of a rank's plant; of the soil that it knows
+    const auto errors = on_ranks(2, [&](Ranks& ranks) {
+        World world(described, std::size_t(-1), {}, nullptr, &ranks);
+        const auto rank = static_cast<std::size_t>(ranks.rank());
+        world.start();
+        const std::uint32_t own = world.modules_of(0) > 0 ? 0 : 1;
+        const auto statistic = [&](const std::string& name) {
+            for (const Quantity& quantity : world.environment().statistics(own)) {
+                if (quantity.name == name) return quantity.value;
+            }
+            throw std::runtime_error("no statistic " + name);
+        };
+        const double filled = statistic("water.total") + statistic("water.drunk");
+        for (int step = 0; step < described.steps; ++step) {
+            drunk_by[rank] += statistic("water.uptake");
+            world.step();
+        }
+        drunk_by[rank] += statistic("water.uptake");
+        drunk[rank] = statistic("water.drunk");
+        missing[rank] = filled - statistic("water.total");
+        balance[rank] = statistic("water.balance");
+    });
+    REQUIRE(all_are_silent(errors));
+    CHECK(drunk[0] == drunk[1]);
+    CHECK(std::min(drunk_by[0], drunk_by[1]) > 0.3 * drunk[0]);
+    CHECK(drunk_by[0] + drunk_by[1] == Approx(drunk[0]).epsilon(1e-9));
+    CHECK(missing[0] == Approx(drunk[0]).epsilon(1e-9));
+    CHECK(std::max(balance[0], balance[1]) < 1e-12);
+}
+
 TEST_CASE_METHOD(Spread, "a world has the same bytes whatever its blocks are", "[simulation][ranks]") {
     run_alone(scene(light));
     for (const char* blocks : {"blocks = [1, 3]\n", "blocks = [3, 1]\n", "blocks = [7, 5]\n"}) {
