@@ -1,5 +1,7 @@
 #include "base/number.h"
 
+#include "base/characters.h"
+
 #include <algorithm>
 #include <locale>
 #include <sstream>
@@ -7,10 +9,6 @@
 
 namespace espalier {
 namespace {
-
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
 
 const char* behind_digits(const char* at, const char* end) {
     while (at != end && is_digit(*at)) ++at;

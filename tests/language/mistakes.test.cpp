@@ -14,7 +14,7 @@ using namespace espalier::test;
 namespace {
 
 // The folder is left out, so that the expected text is the same wherever the sources lie.
-std::string complaint(const std::filesystem::path& path) {
+std::string complaint_of(const std::filesystem::path& path) {
     std::string text;
     std::vector<Diagnostic> warnings;
     ReadOptions options;
@@ -47,8 +47,8 @@ TEST_CASE("every mistake in the collection is explained as approved", "[language
     for (const std::filesystem::path& model : models) {
         std::filesystem::path expected = model;
         expected.replace_extension(".expected");
-        if (std::getenv("ESPALIER_APPROVE")) write_text(expected, complaint(model));
-        CHECK(complaint(model) == read_text(expected));
+        if (std::getenv("ESPALIER_APPROVE")) write_text(expected, complaint_of(model));
+        CHECK(complaint_of(model) == read_text(expected));
     }
 }
 

@@ -11,7 +11,7 @@ using namespace espalier;
 
 namespace {
 
-const char* const model = R"(environment light, water;
+const char* const thirsty = R"(environment light, water;
 lsystem: 1
 define: { array count[2]; }
 seed: 3
@@ -47,7 +47,7 @@ initial = 0.3
 class Saved {
 public:
     Saved() {
-        folder_.write("plant.l", model);
+        folder_.write("plant.l", thirsty);
         scene = read_scene_text(scene_text, "scene.toml", folder_.path());
     }
     Scene scene;

@@ -236,7 +236,7 @@ TEST_CASE_METHOD(Spread, "plants move to ranks that have less to do, and no byte
         world.start();
         for (int step = 0; step < 9; ++step) {
             world.step();
-            world.prepare_save();
+            world.prepare_save(path());
         }
         for (std::size_t plant = 0; plant < world.size(); ++plant) {
             modules[static_cast<std::size_t>(ranks.rank())] += world.string(plant).size();

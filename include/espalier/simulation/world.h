@@ -86,8 +86,9 @@ public:
     /// have more to remember, see save().
     void take(const DerivedStep& derived);
 
-    /// Before save(), on all ranks: the first one gets what the others hold. Without others, it does nothing.
-    void prepare_save();
+    /// Before save(), on all ranks: the first one gets what the others hold, part by part, into a file without a name
+    /// in `folder`. Without others, it does nothing. Throws RunError for a disk that is full.
+    void prepare_save(const std::filesystem::path& folder);
     /// Everything that lasts from step to step, as bytes, after a step; for this machine and the same scene, and any
     /// number of ranks. Only on the first rank.
     void save(std::ostream& out) const;

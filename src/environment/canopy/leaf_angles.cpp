@@ -9,7 +9,7 @@
 namespace espalier::environment {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Share of leaf area per inclination, from 0 to pi / 2.
 double density(const std::string& name, double inclination) {

@@ -19,7 +19,7 @@
 namespace espalier::environment {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The numbers of an IES file behind its line TILT=.
 class IesNumbers {

@@ -12,7 +12,7 @@
 namespace espalier::environment {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// ISO 15469:2004, table 1: a, b of the gradation and c, d, e of the indicatrix.
 constexpr std::array<std::array<double, 5>, 15> cie_skies{{{4.0, -0.70, 0, -1.0, 0},

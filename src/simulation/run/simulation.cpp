@@ -150,7 +150,7 @@ private:
     }
 
     void write_checkpoint() {
-        world_.prepare_save();
+        world_.prepare_save(options_.output);
         together(options_.ranks, [&] {
             if (timeline_) write_own_checkpoint();
         });

@@ -267,7 +267,7 @@ std::vector<std::string> Spread::states(std::span<const GrowingPlant> plants) {
     });
     std::vector<std::string> states(plants.size());
     for_received(received, [&](std::uint32_t number, std::istream& in) {
-        states[number] = get_text(in, std::numeric_limits<std::uint64_t>::max());
+        states[number - plants.front().number] = get_text(in, std::numeric_limits<std::uint64_t>::max());
     });
     return states;
 }

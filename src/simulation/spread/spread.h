@@ -53,7 +53,8 @@ public:
     /// Forgets what was received of plants that others hold.
     void forget(std::span<GrowingPlant> plants);
 
-    /// Returns, on the first rank, the state of each plant that another holds, by its number.
+    /// Returns, on the first rank, the state of each of these plants, which follow each other, that another holds; ""
+    /// for the others.
     std::vector<std::string> states(std::span<const GrowingPlant> plants);
 
     /// Moves plants, block by block, where the slowest rank takes 1.3 times as long as the mean. `seconds`: what this

@@ -76,7 +76,7 @@ void World::State::begin_step() {
     times = {};
     if (!spread) return;
     if (std::exchange(is_saved, false)) {
-        gathered = {};
+        gathered.reset();
         spread->balance(plants, std::exchange(busy, 0), memory.bytes());
         all_do([&] { memory.check_drawn(plants, step); });
     }
@@ -255,16 +255,19 @@ void World::State::record() {
     });
 }
 
-// The first rank gets the plants of the others part by part, so that it holds no more of them than of its own.
+// As many as there are ranks, so that the first holds no more of the others' plants at a time than of its own.
+std::span<GrowingPlant> World::State::part(std::size_t i) {
+    const std::size_t begin = plants.size() * i / parts(), end = plants.size() * (i + 1) / parts();
+    return std::span(plants).subspan(begin, end - begin);
+}
+
 void World::State::record_gathered() {
-    const auto parts = static_cast<std::size_t>(spread->ranks().count());
-    for (std::size_t i = 0; i < parts; ++i) {
-        const std::size_t begin = plants.size() * i / parts, end = plants.size() * (i + 1) / parts;
-        const std::span<GrowingPlant> some = std::span(plants).subspan(begin, end - begin);
+    for (std::size_t i = 0; i < parts(); ++i) {
+        const std::span<GrowingPlant> some = part(i);
         spread->gather(some, *environment, step);
         all_do([&] {
             memory.check_received(some, step);
-            give_to_recorders(some, i == 0, i + 1 == parts);
+            give_to_recorders(some, i == 0, i + 1 == parts());
         });
         spread->forget(some);
     }
@@ -382,10 +385,27 @@ void World::take(const DerivedStep& derived) {
     state_->note_ends();
 }
 
-void World::prepare_save() {
+void World::prepare_save(const std::filesystem::path& folder) {
     if (!state_->spread) return;
-    state_->gathered = state_->spread->states(state_->plants);
+    state_->gather_states(folder);
     state_->is_saved = true;
+}
+
+void World::State::gather_states(const std::filesystem::path& folder) {
+    all_do([&] {
+        if (spread->is_first())
+            gathered.reset(new Gathered{ScratchFile(folder), std::vector<Gathered::Place>(plants.size())});
+    });
+    for (std::size_t i = 0; i < parts(); ++i) {
+        const std::vector<std::string> states = spread->states(part(i));
+        all_do([&] {
+            if (!gathered) return;
+            for (std::size_t k = 0; k < states.size(); ++k) {
+                if (states[k].empty()) continue;
+                gathered->of_plants[part(i)[k].number] = {gathered->states.append(states[k]), states[k].size()};
+            }
+        });
+    }
 }
 
 void World::save(std::ostream& out) const {
@@ -394,10 +414,12 @@ void World::save(std::ostream& out) const {
     put(out, static_cast<std::uint64_t>(size()));
     for (GrowingPlant& plant : state_->plants) {
         if (state_->store) state_->store->show(plant);
-        if (plant.is_here)
+        if (plant.is_here) {
             put_state(out, plant);
-        else
-            out << state_->gathered[plant.number];
+        } else {
+            const State::Gathered::Place& place = state_->gathered->of_plants[plant.number];
+            out << state_->gathered->states.read(place.at, place.size);
+        }
         if (state_->store) state_->store->put_back(plant);
     }
     state_->environment->save(out);

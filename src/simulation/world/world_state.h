@@ -5,6 +5,7 @@
 #include "espalier/environment/environment.h"
 #include "espalier/simulation/world.h"
 
+#include "base/scratch_file.h"
 #include "simulation/spread/spread.h"
 #include "simulation/world/growing_plant.h"
 #include "simulation/world/memory_budget.h"
@@ -26,6 +27,16 @@ struct World::State {
     /// What the recorders of a run read.
     struct Recorded {
         bool anything = false, fields = false;
+    };
+
+    /// States of plants that other ranks hold.
+    struct Gathered {
+        struct Place {
+            std::uint64_t at = 0;
+            std::size_t size = 0;
+        };
+        ScratchFile states;
+        std::vector<Place> of_plants;  ///< by number
     };
 
     State(const Scene& described, std::size_t bytes, const std::filesystem::path& files,
@@ -54,7 +65,10 @@ struct World::State {
     void for_waiting(std::span<GrowingPlant> some, const Action& action);
     bool reads_plants(bool may_end) const;
     void record();
+    std::size_t parts() const { return static_cast<std::size_t>(spread->ranks().count()); }
+    std::span<GrowingPlant> part(std::size_t i);
     void record_gathered();
+    void gather_states(const std::filesystem::path& folder);
     void record_waiting();
     void give_to_recorders(std::span<const GrowingPlant> some, bool begins, bool ends);
     Frame frame_of(std::span<const GrowingPlant> some) const;
@@ -83,7 +97,7 @@ struct World::State {
     bool has_restored_fields = false;
     std::vector<Recorder*> recorders;
     std::optional<Recorded> recorded;                 ///< by the first rank; asked for once
-    std::vector<std::string> gathered;                ///< states of plants of other ranks, for a checkpoint
+    std::unique_ptr<Gathered> gathered;               ///< for a checkpoint of the first rank
     std::size_t modules_of_all = 0;                   ///< on all ranks
     bool is_saved = false;                            ///< before the step, for a checkpoint: plants may move
     double busy = 0;                                  ///< seconds of work on the plants since they might have moved
