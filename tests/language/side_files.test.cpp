@@ -4,6 +4,7 @@
 
 #include "base/text_cursor.h"
 #include "catch.h"
+#include "replaced.h"
 #include "temporary_folder.h"
 
 #include <glm/geometric.hpp>
@@ -28,10 +29,6 @@ std::string complaint(const std::string& text) {
         return error.what();
     }
     return "";
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-    return text.replace(text.find(from), from.size(), to);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ using namespace espalier;
 
 namespace {
 
-std::string file(const std::string& name) {
+std::string cell_model(const std::string& name) {
     return "models/cells/" + name + ".l";
 }
 
@@ -49,7 +49,7 @@ std::vector<AnabaenaCell> next_filament(const std::vector<AnabaenaCell>& old) {
 }  // namespace
 
 TEST_CASE("Fibonacci: the printed strings, each the two before it joined", "[cells]") {
-    LonePlant cells(file("fibonacci"));
+    LonePlant cells(cell_model("fibonacci"));
     std::vector<std::string> strings{cells.text()};
     for (int step = 1; step <= 12; ++step) {
         cells.grow(1);
@@ -62,7 +62,7 @@ TEST_CASE("Fibonacci: the printed strings, each the two before it joined", "[cel
 }
 
 TEST_CASE("Anabaena catenula: the printed filaments", "[cells]") {
-    LonePlant filament(file("anabaena"));
+    LonePlant filament(cell_model("anabaena"));
     for (const char* expected : {"Ar", "AlBr", "BlArAr", "AlAlBrAlBr", "BlArBlArArBlArAr"}) {
         CHECK(filament.text() == expected);
         filament.grow(1);
@@ -71,7 +71,7 @@ TEST_CASE("Anabaena catenula: the printed filaments", "[cells]") {
 
 TEST_CASE("Heterocysts: every cell of every step is that of a program of its own; sources keep their distance",
           "[cells]") {
-    LonePlant filament(file("heterocysts"));
+    LonePlant filament(cell_model("heterocysts"));
     std::vector<AnabaenaCell> expected{{0, 0, 900}, {4, 1, 900}, {0, 0, 900}};
     for (int step = 1; step <= 360; ++step) {
         expected = next_filament(expected);
@@ -101,7 +101,7 @@ TEST_CASE("Heterocysts: every cell of every step is that of a program of its own
 }
 
 TEST_CASE("Ring: the pattern goes round and comes back", "[cells]") {
-    LonePlant ring(file("ring"));
+    LonePlant ring(cell_model("ring"));
     std::vector<double> states(ring.string.parameters.begin(), ring.string.parameters.end());
     const std::vector<double> start = states;
     REQUIRE(states.size() == 12);
@@ -114,7 +114,7 @@ TEST_CASE("Ring: the pattern goes round and comes back", "[cells]") {
 }
 
 TEST_CASE("Cantor: a third is drawn if its number has no 1 in base 3", "[cells]") {
-    LonePlant dust(file("cantor"));
+    LonePlant dust(cell_model("cantor"));
     dust.grow(6);
     const std::string text = dust.text();
     REQUIRE(text.size() == 729);
@@ -127,7 +127,7 @@ TEST_CASE("Cantor: a third is drawn if its number has no 1 in base 3", "[cells]"
 }
 
 TEST_CASE("Thue and Morse: parities of the ones, and nothing three times in a row", "[cells]") {
-    LonePlant sequence(file("thue-morse"));
+    LonePlant sequence(cell_model("thue-morse"));
     sequence.grow(9);
     const std::string text = sequence.text();
     REQUIRE(text.size() == 512);
@@ -142,7 +142,7 @@ TEST_CASE("Thue and Morse: parities of the ones, and nothing three times in a ro
 }
 
 TEST_CASE("Pascal: binomial coefficients, as many odd ones as powers of 2 say", "[cells]") {
-    LonePlant triangle(file("pascal"));
+    LonePlant triangle(cell_model("pascal"));
     for (unsigned n = 1; n <= 31; ++n) {
         triangle.grow(1);
         const auto cells = parameters_of(triangle.string, triangle.model->alphabet, "Cell");
@@ -163,7 +163,7 @@ TEST_CASE("Pascal: binomial coefficients, as many odd ones as powers of 2 say", 
 TEST_CASE("Elementary automata: rules 30, 90 and 110 on a ring, with their whole past", "[cells]") {
     for (int rule : {30, 90, 110}) {
         INFO(rule);
-        LonePlant ring(file("elementary-automaton"), {{"RULE", std::to_string(rule)}, {"WIDTH", "41"}});
+        LonePlant ring(cell_model("elementary-automaton"), {{"RULE", std::to_string(rule)}, {"WIDTH", "41"}});
         ring.grow(1);
         std::vector<int> row(41, 0);
         row[20] = 1;
@@ -191,8 +191,8 @@ TEST_CASE("Elementary automata: rules 30, 90 and 110 on a ring, with their whole
 
 TEST_CASE("anabaena-timed: at whole times it is the discrete filament, whatever the step", "[cells]") {
     for (const auto& [step, at_once] : {std::pair{"1", 1}, {"0.1", 10}, {"0.3", 10}, {"0.125", 8}, {"7", 1}}) {
-        LonePlant timed(file("anabaena-timed"), {{"DT", step}});
-        LonePlant discrete(file("anabaena"));
+        LonePlant timed(cell_model("anabaena-timed"), {{"DT", step}});
+        LonePlant discrete(cell_model("anabaena"));
         const int whole = static_cast<int>(std::lround(std::stod(step) * at_once));
         for (int time = whole; time <= 7; time += whole) {
             timed.grow(at_once);
@@ -207,7 +207,7 @@ TEST_CASE("anabaena-timed: at whole times it is the discrete filament, whatever 
 TEST_CASE("anabaena-timed: the filament grows by the golden section at every time", "[cells]") {
     const double golden = (std::sqrt(5) + 1) / 2;
     for (const double step : {0.1, 0.37, 2.6}) {
-        LonePlant filament(file("anabaena-timed"), {{"DT", std::to_string(step)}});
+        LonePlant filament(cell_model("anabaena-timed"), {{"DT", std::to_string(step)}});
         for (double time = step; time < 8; time += step) {
             filament.grow(1);
             CHECK(total_length(filament.interpretation.geometry) == Approx(std::pow(golden, time - 1)).epsilon(1e-9));
@@ -216,7 +216,8 @@ TEST_CASE("anabaena-timed: the filament grows by the golden section at every tim
 }
 
 TEST_CASE("anabaena-timed: the ages of a time are the same whatever steps led to it", "[cells]") {
-    LonePlant coarse(file("anabaena-timed"), {{"DT", "5.4"}}), fine(file("anabaena-timed"), {{"DT", "0.2"}});
+    LonePlant coarse(cell_model("anabaena-timed"), {{"DT", "5.4"}}),
+        fine(cell_model("anabaena-timed"), {{"DT", "0.2"}});
     coarse.grow(1);
     fine.grow(27);
     REQUIRE(coarse.string.letters == fine.string.letters);

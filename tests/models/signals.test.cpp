@@ -11,13 +11,13 @@ using namespace espalier;
 
 namespace {
 
-std::string file(const std::string& name) {
+std::string signal_model(const std::string& name) {
     return "models/signals/" + name + ".l";
 }
 
 /// The step in which each node's bud has become a flower, by the first parameter of the flower.
 std::map<int, int> flowering_times(const std::string& name, int steps) {
-    LonePlant plant(file(name));
+    LonePlant plant(signal_model(name));
     std::map<int, int> times;
     for (int step = 1; step <= steps; ++step) {
         plant.grow(1);
@@ -80,7 +80,7 @@ private:
 }  // namespace
 
 TEST_CASE("A signal travels one place a step and leaves the string at its end", "[signals]") {
-    LonePlant row(file("travelling-signal"));
+    LonePlant row(signal_model("travelling-signal"));
     CHECK(row.text() == "baaaaaaaa");
     for (std::size_t k = 1; k <= 8; ++k) {
         row.grow(1);
@@ -94,7 +94,7 @@ TEST_CASE("A signal travels one place a step and leaves the string at its end", 
 
 TEST_CASE("Neighbours in AB[C[D[EF]G][HIJ]K]L[MN]O[[PQR]ST[UV]WY]Z: left climbs to the parent, right stays on the axis",
           "[signals]") {
-    LonePlant plant(file("neighbours"));
+    LonePlant plant(signal_model("neighbours"));
     plant.grow(1);
     std::map<char, char> left, right;
     const double* values = plant.string.parameters.data();
@@ -114,7 +114,7 @@ TEST_CASE("Neighbours in AB[C[D[EF]G][HIJ]K]L[MN]O[[PQR]ST[UV]WY]Z: left climbs 
 }
 
 TEST_CASE("Acropetal signals enter branches, basipetal ones stay on the axis", "[signals]") {
-    LonePlant up(file("acropetal")), down(file("basipetal"));
+    LonePlant up(signal_model("acropetal")), down(signal_model("basipetal"));
     const std::vector<std::string> rising{"B[+B]B[-A]A[+A]A", "B[+B]B[-B]B[+A]A", "B[+B]B[-B]B[+B]B",
                                           "B[+B]B[-B]B[+B]B"};
     const std::vector<std::string> falling{"A[+A]A[-A]B[+A]B", "A[+A]B[-A]B[+A]B", "B[+A]B[-A]B[+A]B",
@@ -141,7 +141,7 @@ TEST_CASE("Acropetal flowering: node i flowers at i + c; basipetal flowering: at
 
 TEST_CASE("Two signals meet where the ratio of their speeds says, and make one branch", "[signals]") {
     for (int slow = 1; slow <= 7; ++slow) {
-        LonePlant plant(file("two-speeds"), {{"SLOW", std::to_string(slow)}});
+        LonePlant plant(signal_model("two-speeds"), {{"SLOW", std::to_string(slow)}});
         plant.grow(24);
         CHECK(plant.counts()["Branch"] == 1);
         const std::string branch = "Branch(" + std::to_string((20 + slow) / (slow + 1)) + ")";
@@ -150,7 +150,7 @@ TEST_CASE("Two signals meet where the ratio of their speeds says, and make one b
 }
 
 TEST_CASE("Apical dominance: buds break from below, and also from above once the apex is gone", "[signals]") {
-    LonePlant plant(file("apical-dominance"));
+    LonePlant plant(signal_model("apical-dominance"));
     std::map<int, int> breaking;
     for (int step = 1; step <= 40; ++step) {
         plant.grow(1);
@@ -183,7 +183,7 @@ TEST_CASE("Hogeweg and Hesper's patterns: the strings of all steps are those of 
                                    Pattern{"d", 24, {"1", "0", "0", "1F1", "1", "1[+F1F1]", "1", "0"}},
                                    Pattern{"e", 26, {"0", "1[-F1F1]", "1", "1", "0", "1F1", "1", "0"}}}) {
         INFO(pattern.name);
-        LonePlant plant(file(std::string("hogeweg-hesper-") + pattern.name));
+        LonePlant plant(signal_model(std::string("hogeweg-hesper-") + pattern.name));
         const HogewegHesper reference(pattern.successors);
         std::string expected = pattern.name == std::string("d") ? "F0F1F1" : "F1F1F1";
         CHECK(plant.text() == expected);

@@ -5,6 +5,7 @@
 #include "espalier/base/file.h"
 
 #include "catch.h"
+#include "replaced.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -28,11 +29,6 @@ PointCurve curve_of(const std::string& name, const std::string& text) {
 
 std::vector<CurvePoint> points_of(const std::string& name, const std::string& text) {
     return curve_of(name, text).points;
-}
-
-std::string replaced(std::string text, const std::string& part, const std::string& by) {
-    REQUIRE(text.find(part) != std::string::npos);
-    return text.replace(text.find(part), part.size(), by);
 }
 
 }  // namespace

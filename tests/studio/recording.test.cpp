@@ -13,10 +13,6 @@ A(n) --> F(LENGTH) [ +(30) A(n+1) ] [ -(30) A(n+1) ] ;(3) { . f(1) . +(90) f(1) 
 endlsystem
 )";
 
-std::size_t internodes(const std::string& packet) {
-    return number_at<std::uint32_t>(packet, 16);
-}
-
 /// A studio with a run of the tree, five steps of six, every second recorded.
 struct OpenRun : OpenStudio {
     OpenRun() : OpenStudio(recorded_tree) {

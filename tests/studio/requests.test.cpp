@@ -10,7 +10,7 @@ using namespace studio_test;
 
 namespace {
 
-const char* const stem = R"(#define LENGTH 2  /* of internodes; 0..10 */
+const char* const long_stem = R"(#define LENGTH 2  /* of internodes; 0..10 */
 lsystem: 1
 derivation length: 3
 axiom: A
@@ -18,7 +18,7 @@ A --> F(LENGTH) A
 endlsystem
 )";
 
-const char* const flower = R"(pgraph 1
+const char* const horn_graph = R"(pgraph 1
 
 Horn stem
   length 2
@@ -43,7 +43,7 @@ std::vector<Json> requests(const OpenStudio& studio, std::uint32_t growth) {
         {{"do", "graph"}, {"path", file}, {"edit", "remove"}, {"component", "petal"}},
         {{"do", "points"}, {"path", file}, {"number", 0}, {"points", {{{"x", 0}, {"y", 0}, {"z", 0}, {"times", 1}}}}},
         {{"do", "view-value"}, {"path", file}, {"name", "light:"}, {"number", 0}, {"letter", "A"}, {"values", "1"}},
-        {{"do", "change"}, {"texts", {{file, stem}}}, {"label", "text"}, {"transient", true}},
+        {{"do", "change"}, {"texts", {{file, long_stem}}}, {"label", "text"}, {"transient", true}},
         {{"do", "undo"}},
         {{"do", "redo"}},
         {{"do", "grow"}, {"to", 4}},
@@ -61,10 +61,12 @@ std::vector<Json> requests(const OpenStudio& studio, std::uint32_t growth) {
         {{"do", "save"}, {"path", "kept.l"}},
         {{"do", "open"}, {"path", file}},
         {{"do", "share"}},
-        {{"do", "read-link"}, {"main", "other.l"}, {"files", Json::array({{{"path", "other.l"}, {"content", stem}}})}},
+        {{"do", "read-link"},
+         {"main", "other.l"},
+         {"files", Json::array({{{"path", "other.l"}, {"content", long_stem}}})}},
         {{"do", "open-text"},
          {"main", "other.l"},
-         {"files", Json::array({{{"path", "other.l"}, {"content", stem}}})},
+         {"files", Json::array({{{"path", "other.l"}, {"content", long_stem}}})},
          {"steps", 2},
          {"seed", 1}}};
 }
@@ -137,19 +139,19 @@ std::size_t ask_wrongly(OpenStudio& studio) {
 
 TEST_CASE("a request with any key missing or wrong is answered, and the studio goes on", "[studio]") {
     const bool is_graph = GENERATE(false, true);
-    OpenStudio studio(is_graph ? flower : stem, is_graph ? "plant.pgraph" : "plant.l");
+    OpenStudio studio(is_graph ? horn_graph : long_stem, is_graph ? "plant.pgraph" : "plant.l");
     studio.begin();
     studio.wait_until_grown();
     CHECK(ask_wrongly(studio) > 1000);
 
-    const std::filesystem::path whole = studio.folder.write("whole.l", stem);
+    const std::filesystem::path whole = studio.folder.write("whole.l", long_stem);
     CHECK(!studio.ask({{"do", "open"}, {"path", whole.string()}}).contains("error"));
     studio.wait_until_grown();
     CHECK(studio.page.last("growth")["step"] == 3);
 }
 
 TEST_CASE("every request of the protocol is asked wrongly", "[studio]") {
-    OpenStudio studio(stem);
+    OpenStudio studio(long_stem);
     std::set<std::string> known, named;
     for (const Json& request : requests(studio, 1)) known.insert(request["do"]);
     for (const auto& [name, request] : espalier::registered<espalier::studio::RequestType>()) named.insert(name);

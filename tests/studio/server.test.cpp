@@ -19,7 +19,7 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 using asio::ip::tcp;
 
-const char* const stalk = "lsystem: 1\nderivation length: 3\naxiom: A\nA --> F(1)A\nendlsystem\n";
+const char* const stalk_of_three = "lsystem: 1\nderivation length: 3\naxiom: A\nA --> F(1)A\nendlsystem\n";
 
 /// serve() on a thread of its own.
 class Served {
@@ -27,7 +27,7 @@ public:
     explicit Served(bool is_recorded = false) {
         options_.folder = folder_.path();
         options_.scratch = scratch_.path();
-        options_.opened.path = folder_.write("stalk.l", stalk);
+        options_.opened.path = folder_.write("stalk.l", stalk_of_three);
         if (is_recorded) {
             record(options_.opened.path, 3, folder_.path() / "run");
             options_.opened.path = folder_.path() / "run";

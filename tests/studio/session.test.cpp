@@ -26,10 +26,6 @@ A --> F(2) A : 0.5
 endlsystem
 )";
 
-std::size_t internodes(const std::string& packet) {
-    return number_at<std::uint32_t>(packet, 16);
-}
-
 // The height of the box of all internodes.
 float height(const std::string& packet) {
     return number_at<float>(packet, 48) - number_at<float>(packet, 36);

@@ -104,4 +104,9 @@ T number_at(const std::string& bytes, std::size_t offset) {
     return value;
 }
 
+/// Of a packet of growth.
+inline std::size_t internodes(const std::string& packet) {
+    return number_at<std::uint32_t>(packet, 16);
+}
+
 }  // namespace studio_test

@@ -4,6 +4,7 @@
 #include "espalier/base/error.h"
 
 #include "catch.h"
+#include "replaced.h"
 
 #include <filesystem>
 #include <fstream>
@@ -30,10 +31,6 @@ std::string edited(const std::string& name, int number, const Nullable<std::stri
 
 std::string with_letter(int number, const std::string& letter, const Nullable<std::string>& values) {
     return with_view_edit(text, {"light:", number, letter, values});
-}
-
-std::string replaced(std::string in, const std::string& from, const std::string& to) {
-    return in.replace(in.find(from), from.size(), to);
 }
 
 }  // namespace

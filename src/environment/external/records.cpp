@@ -21,9 +21,11 @@ enum Flags { first_part = 1, last_part = 4, end_of_exchange = 8 };
 std::string module_text(std::string_view name, std::span<const double> parameters, const Communication& communication) {
     std::string text(name);
     for (std::size_t i = 0; i < parameters.size(); ++i) {
-        text += (i == 0 ? "(" : ",") + communication.text_of(parameters[i]);
+        text += i == 0 ? '(' : ',';
+        text += communication.text_of(parameters[i]);
     }
-    return parameters.empty() ? text : text + ")";
+    if (!parameters.empty()) text += ')';
+    return text;
 }
 
 // Without the question mark.
@@ -86,7 +88,8 @@ std::string text_of_queries(const WorldView& world, std::span<const Query> queri
             const Alphabet& alphabet = world.plants[query.plant].model->alphabet;
             text += module_text(alphabet.name(query.following), query.following_parameters, communication);
         }
-        text += "\n" + communication.turtle_text(query);
+        text += '\n';
+        text += communication.turtle_text(query);
     }
     return text + fmt::format("{} {} {}\n", control, first_part | last_part, world.step);
 }

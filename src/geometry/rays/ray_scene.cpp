@@ -14,33 +14,6 @@ namespace {
 // The widest instructions differ between processors, and so would their rounding.
 constexpr const char* same_everywhere = "isa=sse2";
 
-/// Releases it with its owner.
-class EmbreeScene {
-public:
-    explicit EmbreeScene(RTCDevice device) : scene_(rtcNewScene(device)) {}
-    EmbreeScene(EmbreeScene&& other) noexcept : scene_(std::exchange(other.scene_, nullptr)) {}
-    EmbreeScene& operator=(EmbreeScene&& other) noexcept {
-        std::swap(scene_, other.scene_);
-        return *this;
-    }
-    ~EmbreeScene() {
-        if (scene_) rtcReleaseScene(scene_);
-    }
-    RTCScene get() const { return scene_; }
-
-private:
-    RTCScene scene_;
-};
-
-struct BuiltPart {
-    EmbreeScene scene;
-    std::span<const glm::vec3> corners;  ///< of the scene
-};
-
-struct Standing {
-    std::uint32_t part, place;
-};
-
 RTCRay ray_of(const glm::vec3& origin, const glm::vec3& direction, float from, float to) {
     return {origin.x, origin.y, origin.z, from, direction.x, direction.y, direction.z, 0, to, 0xFFFFFFFF, 0, 0};
 }
@@ -48,10 +21,37 @@ RTCRay ray_of(const glm::vec3& origin, const glm::vec3& direction, float from, f
 }  // namespace
 
 struct RayScene::Embree {
+    /// Releases it with its owner.
+    class TriangleScene {
+    public:
+        explicit TriangleScene(RTCDevice device) : scene_(rtcNewScene(device)) {}
+        TriangleScene(TriangleScene&& other) noexcept : scene_(std::exchange(other.scene_, nullptr)) {}
+        TriangleScene& operator=(TriangleScene&& other) noexcept {
+            std::swap(scene_, other.scene_);
+            return *this;
+        }
+        ~TriangleScene() {
+            if (scene_) rtcReleaseScene(scene_);
+        }
+        RTCScene get() const { return scene_; }
+
+    private:
+        RTCScene scene_;
+    };
+
+    struct BuiltPart {
+        TriangleScene scene;
+        std::span<const glm::vec3> corners;  ///< of the scene
+    };
+
+    struct Standing {
+        std::uint32_t part, place;
+    };
+
     RTCDevice device = rtcNewDevice(same_everywhere);
     std::vector<BuiltPart> parts;
     std::vector<Standing> instances;
-    std::optional<EmbreeScene> all;
+    std::optional<TriangleScene> all;
     RTCScene met = nullptr;  ///< what rays are sent into
 
     Embree() { require_success(); }
@@ -68,14 +68,14 @@ struct RayScene::Embree {
         throw RunError("rays: Embree cannot hold the triangles of the plants: there is too little memory");
     }
 
-    void attach(const EmbreeScene& scene, RTCGeometry geometry) const {
+    void attach(const TriangleScene& scene, RTCGeometry geometry) const {
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene.get(), geometry);
         rtcReleaseGeometry(geometry);
     }
 
     BuiltPart build(std::span<const glm::vec3> corners) const {
-        EmbreeScene scene(device);
+        TriangleScene scene(device);
         require_success();
         rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -123,7 +123,7 @@ std::size_t RayScene::set_parts(std::span<const Part> parts) {
         const bool is_known = k < own.parts.size();
         if (!is_known ||
             !std::equal(corners.begin(), corners.end(), own.parts[k].corners.begin(), own.parts[k].corners.end())) {
-            BuiltPart part = own.build(corners);
+            Embree::BuiltPart part = own.build(corners);
             if (is_known) {
                 own.parts[k] = std::move(part);
             } else {
@@ -142,7 +142,7 @@ std::size_t RayScene::set_parts(std::span<const Part> parts) {
     own.require_success();
     // A lone part that is not moved needs no look into the places first, a sixth of a ray's time.
     const bool is_alone = own.instances.size() == 1;
-    const Standing alone = is_alone ? own.instances.front() : Standing{};
+    const Embree::Standing alone = is_alone ? own.instances.front() : Embree::Standing{};
     const bool is_as_given = is_alone && parts[alone.part].places[alone.place] == moved_by({0, 0, 0});
     own.met = is_as_given ? own.parts[alone.part].scene.get() : own.all->get();
     return built;
