@@ -5,10 +5,12 @@
 #include "base/platform.h"
 #include "command.h"
 #include "options.h"
+#include "run_command.h"
 #include "simulation/run/recorded_command.h"
 
 #include <fmt/format.h>
 
+#include <exception>
 #include <system_error>
 #include <utility>
 
@@ -43,7 +45,16 @@ Examples:
     }
 
     int run() override {
-        const RecordedCommand command = read_command(run_);
+        try {
+            start(checked_command());
+        } catch (const std::exception&) {
+            return fail_to_run(std::current_exception());
+        }
+    }
+
+private:
+    RecordedCommand checked_command() const {
+        RecordedCommand command = read_command(run_);
         if (command.exit == "done")
             throw UserError(fmt::format("the run in {} is complete; there is nothing to continue", run_.string()));
         if (!fs::exists(checkpoint_of(run_))) {
@@ -58,10 +69,9 @@ Examples:
                     fmt::format("{} has changed since the run began, so the run cannot be continued", path.string()));
             }
         }
-        start(command);
+        return command;
     }
 
-private:
     // The program itself once more, in the folder where the run was started.
     [[noreturn]] void start(const RecordedCommand& command) const {
         std::vector<std::string> words{platform::program_file().string(), "run"};

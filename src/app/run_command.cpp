@@ -18,6 +18,8 @@
 #include <atomic>
 #include <cstdlib>
 #include <ctime>
+#include <exception>
+#include <functional>
 
 namespace espalier::app {
 namespace {
@@ -213,11 +215,9 @@ int run_here(const RunArguments& arguments, Ranks* ranks) {
 }
 
 // The first rank tells of the run and of what went wrong anywhere: the others keep silent.
-int run_behind(RunArguments arguments, Ranks& ranks) {
-    arguments.quiet = true;
-    arguments.json = false;
+int in_silence(const std::function<int()>& work) {
     try {
-        return run_here(arguments, &ranks);
+        return work();
     } catch (const Stopped&) {
         return exit_code::interrupted;
     } catch (const UserError&) {
@@ -227,12 +227,30 @@ int run_behind(RunArguments arguments, Ranks& ranks) {
     }
 }
 
+// Until the program ends: the first rank has told what failed before the launcher sees another one end.
+Ranks* launched_ranks() {
+    static const std::unique_ptr<Ranks> ranks = ranks_of_launcher();
+    return ranks.get();
+}
+
 }  // namespace
 
 int run_command(const RunArguments& arguments) {
-    // Until the program ends: the first rank has told what failed before the launcher sees another one end.
-    static const std::unique_ptr<Ranks> ranks = ranks_of_launcher();
-    return is_first(ranks.get()) ? run_here(arguments, ranks.get()) : run_behind(arguments, *ranks);
+    Ranks* const ranks = launched_ranks();
+    if (is_first(ranks)) return run_here(arguments, ranks);
+    RunArguments silent = arguments;
+    silent.quiet = true;
+    silent.json = false;
+    return in_silence([&] { return run_here(silent, ranks); });
+}
+
+int fail_to_run(const std::exception_ptr& error) {
+    Ranks* const ranks = launched_ranks();
+    const auto fail = [&] {
+        together(ranks, [&] { std::rethrow_exception(error); });
+        return exit_code::run_failed;
+    };
+    return is_first(ranks) ? fail() : in_silence(fail);
 }
 
 namespace {

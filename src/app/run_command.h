@@ -8,6 +8,7 @@
 #include "model_arguments.h"
 
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -76,5 +77,7 @@ RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog&
 
 /// Runs it as `espalier run` does. Returns the exit code; throws UserError and RunError.
 int run_command(const RunArguments& arguments);
+/// What failed before the run: rethrows it, but of several ranks only one tells it, and all end.
+int fail_to_run(const std::exception_ptr& error);
 
 }  // namespace espalier::app

@@ -107,6 +107,11 @@ TEST_CASE_METHOD(Launched, "all ranks end with the exit code of a mistake, told 
     CHECK(many.code == 1);
     CHECK_THAT(many.err, Contains("there are 5 ranks but only 4 blocks with plants"));
     CHECK(many.err.find("there are 5 ranks") == many.err.rfind("there are 5 ranks"));
+    REQUIRE(launch(2, "run stand.toml --quiet --output whole").code == 0);
+    const Outcome whole = launch(2, "resume whole");
+    CHECK(whole.code == 1);
+    CHECK(whole.err.find("there is nothing to continue") != std::string::npos);
+    CHECK(whole.err.find("there is nothing to continue") == whole.err.rfind("there is nothing to continue"));
 }
 
 TEST_CASE_METHOD(Launched, "ranks that read different files are refused", "[app][ranks]") {
