@@ -54,10 +54,16 @@ struct World::State {
     void for_waiting(std::span<GrowingPlant> some, const Action& action);
     bool reads_plants(bool may_end) const;
     void record();
-    void record_gathered();
     void record_waiting();
-    void give_to_recorders(std::span<const GrowingPlant> some, bool begins, bool ends);
+    void record_spread();
+    void record_by_first();
+    using Piece = std::span<GrowingPlant>;
+    std::vector<Piece> pieces_of_frame();
+    Piece plants_between(std::size_t begin, std::size_t end);
+    void record_pieces(std::span<const Piece> pieces);
+    void give(std::span<const GrowingPlant> some, bool begins, bool ends, std::optional<int> piece = {}) const;
     Frame frame_of(std::span<const GrowingPlant> some) const;
+    std::vector<const Model*> models() const;
     bool is_at_end() const { return stopped || step >= last_step(); }
     int last_step() const { return scene.last_frame.value_or(longest); }
     void note_ends();
@@ -82,6 +88,7 @@ struct World::State {
     FieldValues fields;                    ///< while turtles walk, and after a restart until then
     bool has_restored_fields = false;
     std::vector<Recorder*> recorders;
+    bool gets_only_pieces = false;                    ///< the recorder, as another rank has the run's
     std::optional<Recorded> recorded;                 ///< by the first rank; asked for once
     std::vector<std::string> gathered;                ///< states of plants of other ranks, for a checkpoint
     std::size_t modules_of_all = 0;                   ///< on all ranks
