@@ -160,11 +160,13 @@ TEST_CASE_METHOD(Spread, "the first rank gets the plants of others part by part,
 TEST_CASE_METHOD(Spread, "ranks write the pieces of large frames together, with the bytes of one process",
                  "[simulation][ranks]") {
     write("other.l", other);
+    write("leaf.ppm", "P6 1 1 255\nabc");
     const std::string rest = GENERATE_COPY(
         light + in_pieces, light + in_pieces + "keyframes = [9]\n",
         others + light + in_pieces + "keyframes = [4, 9]\nparameters = { length = 'U.1' }\n",
         light + in_pieces + "every = 2\nfields = ['light']\n",
         "[[plant.stage]]\nstage = 'pipe-radii'\n[[plant.stage]]\nstage = 'leaves'\n" + (light + in_pieces),
+        "[[plant.stage]]\nstage = 'leaves'\ntexture = 'leaf.ppm'\n" + (light + in_pieces),
         "[environment.light]\nprocess = 'canopy-light'\nvoxel = 0.5\n" + in_pieces + "organs = ['light.absorbed']\n");
     INFO(rest);
     const Scene described = scene(rest);
@@ -176,6 +178,17 @@ TEST_CASE_METHOD(Spread, "ranks write the pieces of large frames together, with 
         REQUIRE(all_are_silent(run_on(count, described, folder)));
         check_same(folder);
     }
+}
+
+TEST_CASE_METHOD(Spread, "pieces have what a process knows of organs, also of those that another rank holds",
+                 "[simulation][ranks]") {
+    const Scene described = scene("[environment.light]\nprocess = 'canopy-light'\nvoxel = 2\n" + in_pieces +
+                                      "organs = ['light.absorbed']\nkeyframes = [6]\n",
+                                  "steps = 6\n");
+    run_alone(described);
+    REQUIRE(fs::exists(path() / "alone/plants/0006-2.vtp"));
+    REQUIRE(all_are_silent(run_on(3, described, "on-3")));
+    CHECK(recorded_files(path() / "on-3") == recorded_files(path() / "alone"));
 }
 
 TEST_CASE_METHOD(Spread, "each rank gets only the pieces that it writes", "[simulation][ranks]") {
@@ -280,6 +293,18 @@ TEST_CASE_METHOD(Spread, "what other ranks send must fit into the memory", "[sim
     for (const std::string& error : run_on(2, described, "little", with(std::size_t{155} << 20))) {
         CHECK_THAT(error, Contains("step 15: what other ranks send of their plants takes"));
     }
+}
+
+TEST_CASE_METHOD(Spread, "a rank needs memory for the plants of one file at a time", "[simulation][ranks]") {
+    write("doubling.l", doubling);
+    const auto errors = [&](const std::string& folder, const std::string& timeline) {
+        const Scene described =
+            read_scene_text(doubling_stand + std::string("statistics = false\n") + timeline, "scene.toml", path());
+        return run_on(2, described, folder,
+                      [](RunOptions& options, Ranks&) { options.memory = std::size_t{175} << 20; });
+    };
+    CHECK_THAT(errors("whole", "")[0], Contains("what other ranks send of their plants takes"));
+    CHECK(errors("pieces", "points_per_file = 200000\n") == std::vector<std::string>(2));
 }
 
 TEST_CASE_METHOD(Spread, "a run goes on from its checkpoint with another number of ranks", "[simulation][ranks]") {

@@ -11,11 +11,13 @@
 namespace espalier::simulation {
 namespace {
 
-// A file names the textures and the symbols of all plants that were shown before. Who sees only some of the pieces knows
-// them where there are no textures and the models stay. Backgrounds are read from all plants at once.
+// A file names the textures and the symbols of all plants that were shown before. Who sees only some of the pieces
+// knows them where there are no textures and the models stay. Backgrounds are read from all plants at once.
 bool needs_one_writer(const GrowingPlant& plant) {
+    if (!plant.is_here) return false;
     const Plant& described = *plant.description;
-    const bool has_textures = described.turtle.shapes && !described.turtle.shapes->textures.empty();
+    const Shapes* const shapes = plant.drawn().geometry.shapes.get();
+    const bool has_textures = shapes && !shapes->textures.empty();
     const bool has_background = described.view && described.view->background;
     return has_textures || has_background || described.in_time || described.drawing_in_time;
 }
@@ -54,15 +56,22 @@ void World::State::record_spread() {
     pieces.size() > 1 ? record_pieces(pieces) : record_by_first();
 }
 
-// What each file of the frame shows, if several ranks can write them; else nothing.
-std::vector<World::State::Piece> World::State::pieces_of_frame() {
+// What every rank can write; 0: one must read all plants.
+std::size_t World::State::points_per_file() {
     const bool is_possible = recorders.size() == 1 && std::none_of(plants.begin(), plants.end(), needs_one_writer);
-    const std::string told = std::to_string(is_possible ? recorders.front()->points_per_file() : 0);
-    const std::size_t most_points = std::stoull(from_first(&spread->ranks(), told));
+    std::size_t points = is_possible ? recorders.front()->points_per_file() : 0;
+    for (const std::string& told : from_all(&spread->ranks(), std::to_string(points))) {
+        points = std::min<std::size_t>(points, std::stoull(told));
+    }
+    return points;
+}
+
+// What each file of the frame shows, if all ranks can write them; else nothing.
+std::vector<World::State::Piece> World::State::pieces_of_frame() {
+    const std::size_t most_points = points_per_file();
     if (most_points == 0) return {};
-    const std::vector<double> points = spread->of_each(plants, [](const GrowingPlant& plant) {
-        return static_cast<double>(points_foreseen(plant.drawn().geometry));
-    });
+    const std::vector<double> points = spread->of_each(
+        plants, [](const GrowingPlant& plant) { return static_cast<double>(points_foreseen(plant.drawn().geometry)); });
     std::vector<Piece> pieces;
     std::size_t begin = 0;
     FrameCut cut(most_points);

@@ -58,6 +58,7 @@ struct World::State {
     void record_spread();
     void record_by_first();
     using Piece = std::span<GrowingPlant>;
+    std::size_t points_per_file();
     std::vector<Piece> pieces_of_frame();
     Piece plants_between(std::size_t begin, std::size_t end);
     void record_pieces(std::span<const Piece> pieces);

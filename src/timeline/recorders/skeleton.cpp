@@ -126,7 +126,7 @@ private:
         return {frame.step, frame.time, std::move(plants), frame.fields, frame.is_last, frame.environment};
     }
 
-    std::string file_of(int step, int piece) const {
+    static std::string file_of(int step, int piece) {
         return piece == 0 ? fmt::format("plants/{:04}.vtp", step) : fmt::format("plants/{:04}-{}.vtp", step, piece);
     }
 
