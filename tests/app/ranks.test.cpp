@@ -19,6 +19,12 @@ const char* const stand =
     "[[plant]]\nmodel = \"growing.l\"\ngrid = { columns = 2, rows = 2, spacing = 1 }\n"
     "[environment.light]\nprocess = \"voxel-shade\"\n[timeline]\nfields = [\"light\"]\n";
 
+// The same plants, a file each in every frame, which all ranks write.
+const char* const stand_in_pieces =
+    "[[plant]]\nmodel = \"growing.l\"\ngrid = { columns = 2, rows = 2, spacing = 1 }\n"
+    "[environment.light]\nprocess = \"voxel-shade\"\n"
+    "[timeline]\nstatistics = false\nlifespans = false\npoints_per_file = 1\n";
+
 /// Debian's mpiexec, on a machine with fewer cores than ranks, for whoever runs the tests.
 const std::string mpiexec = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpiexec --oversubscribe ";
 
@@ -34,6 +40,7 @@ public:
     Launched() {
         write("growing.l", growing);
         write("stand.toml", stand);
+        write("pieces.toml", stand_in_pieces);
     }
 
     Outcome launch(int ranks, const std::string& arguments) const {
@@ -50,8 +57,9 @@ public:
 TEST_CASE_METHOD(Launched, "mpiexec grows a scene as one process does, and only the first rank speaks",
                  "[app][ranks]") {
     if (!has_ranks()) return;
-    REQUIRE(run("run stand.toml --quiet --output alone").code == 0);
-    const Outcome outcome = launch(3, "run stand.toml --output spread --threads 1");
+    const std::string scene = GENERATE("stand.toml", "pieces.toml");
+    REQUIRE(run("run " + scene + " --quiet --output alone").code == 0);
+    const Outcome outcome = launch(3, "run " + scene + " --output spread --threads 1");
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
     CHECK_THAT(outcome.out, Contains("40 of 40 steps"));
@@ -62,7 +70,8 @@ TEST_CASE_METHOD(Launched, "mpiexec grows a scene as one process does, and only 
 
 TEST_CASE_METHOD(Launched, "a rank that is killed ends the run, and resume goes on with other ranks", "[app][ranks]") {
     if (!has_ranks()) return;
-    REQUIRE(run("run stand.toml --quiet --output alone").code == 0);
+    const std::string scene = GENERATE("stand.toml", "pieces.toml");
+    REQUIRE(run("run " + scene + " --quiet --output alone").code == 0);
     // The shell knows rank 1 by its variable, and kills it once there is a checkpoint.
     write("rank.sh",
           "if [ \"$OMPI_COMM_WORLD_RANK\" = 1 ]; then\n"
@@ -71,16 +80,40 @@ TEST_CASE_METHOD(Launched, "a rank that is killed ends the run, and resume goes 
           "  while [ ! -e again/checkpoint ] && kill -0 $process; do sleep 0.01; done\n"
           "  kill -9 $process; wait $process\n"
           "else exec '" ESPALIER_PROGRAM "' \"$@\"; fi\n");
-    const std::string command =
-        "cd '" + path().string() + "' && " + mpiexec +
-        "-n 2 sh rank.sh run stand.toml --quiet --threads 1 --output again --checkpoint-every 1 "
-        ">.out 2>.err";
+    const std::string command = "cd '" + path().string() + "' && " + mpiexec + "-n 2 sh rank.sh run " + scene +
+                                " --quiet --threads 1 --output again --checkpoint-every 1 >.out 2>.err";
     CHECK(code_of(std::system(command.c_str())) != 0);
     REQUIRE(fs::exists(path() / "again" / "checkpoint"));
     const Outcome resumed = launch(3, "resume again --quiet --threads 1");
     INFO(resumed.err);
     CHECK(resumed.code == 0);
     CHECK(files("again") == files("alone"));
+}
+
+TEST_CASE_METHOD(Launched, "a disk that is full for one rank ends all; what was whole stays, and resume goes on",
+                 "[app][ranks]") {
+    if (!has_ranks()) return;
+    REQUIRE(run("run pieces.toml --quiet --output alone").code == 0);
+    write("rank.sh", "[ \"$OMPI_COMM_WORLD_RANK\" = 1 ] && ulimit -f 16\nexec '" ESPALIER_PROGRAM "' \"$@\"\n");
+    const std::string command =
+        "cd '" + path().string() + "' && " + mpiexec +
+        "-n 2 sh rank.sh run pieces.toml --quiet --threads 1 --output full --checkpoint-every 1 >.out 2>.err";
+    CHECK(code_of(std::system(command.c_str())) == 2);
+    const std::string told = text_of(path() / ".err");
+    CHECK_THAT(told, Contains("rank 1 of 2") && Contains("cannot write"));
+    CHECK(told.find("cannot write") == told.rfind("cannot write"));
+    const std::string index = text_of(path() / "full" / "plants.pvd");
+    for (int step = 0; step <= 40; ++step) {
+        const std::string number = (step < 10 ? "000" : "00") + std::to_string(step);
+        INFO(number);
+        for (const char* piece : {"", "-1", "-2", "-3"}) {
+            const std::string file = "plants/" + number + piece + ".vtp";
+            if (index.find(file) != std::string::npos) CHECK(fs::exists(path() / "full" / file));
+        }
+    }
+    CHECK_THAT(index, Contains("plants/0005-3.vtp") && !Contains("plants/0040"));
+    REQUIRE(launch(3, "resume full --quiet --threads 1").code == 0);
+    CHECK(files("full") == files("alone"));
 }
 
 TEST_CASE_METHOD(Launched, "the script for Slurm begins a run, and goes on with it", "[app][ranks]") {

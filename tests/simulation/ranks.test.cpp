@@ -54,6 +54,15 @@ public:
     void check_same(const std::string& folder) const { check_same_files(path() / "alone", path() / folder); }
 };
 
+// Nothing but the skeleton reads plants, so that all ranks write files of large frames.
+const std::string in_pieces = "[timeline]\nstatistics = false\nlifespans = false\npoints_per_file = 400\n";
+
+// Plants with symbols of their own.
+const char* const other =
+    "lsystem: 1\nderivation length: 9\naxiom: Z\nZ --> U(2)F(1)[-Z][+Z]\nF(x) --> F(x*1.1)\nendlsystem\n";
+const std::string others =
+    "[[plant]]\nmodel = 'other.l'\ngrid = { columns = 3, rows = 2, spacing = 2 }\nposition = [1, 0, 1]\n";
+
 bool all_are_silent(const std::vector<std::string>& errors) {
     return std::all_of(errors.begin(), errors.end(), [](const std::string& error) { return error.empty(); });
 }
@@ -190,6 +199,132 @@ TEST_CASE_METHOD(Spread, "the first rank gets the plants of others part by part,
     CHECK(sent[1][5] > 100 * sent[1][6]);
 }
 
+TEST_CASE_METHOD(Spread, "ranks write the pieces of large frames together, with the bytes of one process",
+                 "[simulation][ranks]") {
+    write("other.l", other);
+    write("leaf.ppm", "P6 1 1 255\nabc");
+    const std::string rest = GENERATE_COPY(
+        light + in_pieces, light + in_pieces + "keyframes = [9]\n",
+        others + light + in_pieces + "keyframes = [4, 9]\nparameters = { length = 'U.1' }\n",
+        light + in_pieces + "every = 2\nfields = ['light']\n",
+        "[[plant.stage]]\nstage = 'pipe-radii'\n[[plant.stage]]\nstage = 'leaves'\n" + (light + in_pieces),
+        "[[plant.stage]]\nstage = 'leaves'\ntexture = 'leaf.ppm'\n" + (light + in_pieces),
+        "[environment.light]\nprocess = 'canopy-light'\nvoxel = 0.5\n" + in_pieces + "organs = ['light.absorbed']\n");
+    INFO(rest);
+    const Scene described = scene(rest);
+    run_alone(described);
+    REQUIRE(fs::exists(path() / "alone/plants/0009-6.vtp"));
+    for (const std::size_t count : {2u, 3u, 5u}) {
+        INFO(count << " ranks");
+        const std::string folder = fmt::format("on-{}", count);
+        REQUIRE(all_are_silent(run_on(count, described, folder)));
+        check_same(folder);
+    }
+}
+
+TEST_CASE_METHOD(Spread, "pieces have what a process knows of organs, also of those that another rank holds",
+                 "[simulation][ranks]") {
+    const Scene described = scene("[environment.light]\nprocess = 'canopy-light'\nvoxel = 2\n" + in_pieces +
+                                      "organs = ['light.absorbed']\nkeyframes = [6]\n",
+                                  "steps = 6\n");
+    run_alone(described);
+    REQUIRE(fs::exists(path() / "alone/plants/0006-2.vtp"));
+    REQUIRE(all_are_silent(run_on(3, described, "on-3")));
+    CHECK(recorded_files(path() / "on-3") == recorded_files(path() / "alone"));
+}
+
+TEST_CASE_METHOD(Spread, "each rank gets only the pieces that it writes", "[simulation][ranks]") {
+    class Listening final : public Ranks {
+    public:
+        explicit Listening(Ranks& ranks) : ranks_(ranks) {}
+
+        int rank() const override { return ranks_.rank(); }
+        int count() const override { return ranks_.count(); }
+        std::string name() const override { return ranks_.name(); }
+        std::vector<std::string> trade(std::vector<std::string> to_each) override {
+            std::vector<std::string> received = ranks_.trade(std::move(to_each));
+            std::size_t bytes = 0;
+            for (std::size_t from = 0; from < received.size(); ++from) {
+                if (static_cast<int>(from) != rank()) bytes += received[from].size();
+            }
+            most = std::max(most, bytes);
+            sum += bytes;
+            return received;
+        }
+
+        std::size_t most = 0, sum = 0;  ///< bytes that came at once, and in all
+
+    private:
+        Ranks& ranks_;
+    };
+    write("silent.l", "lsystem: 1\nderivation length: 9\naxiom: A\nA --> F[+A]A\nendlsystem\n");
+    using Received = std::array<std::size_t, 3>;
+    const auto received = [&](const std::string& folder, int points_per_file) {
+        const Scene described = read_scene_text(
+            "[[plant]]\nmodel = 'silent.l'\ngrid = { columns = 6, rows = 6, spacing = 2 }\n[timeline]\n"
+            "statistics = false\nlifespans = false\nkeyframes = [9]\npoints_per_file = " +
+                std::to_string(points_per_file),
+            "scene.toml", path());
+        Received most{}, sum{};
+        const auto errors = on_ranks(3, [&](Ranks& ranks) {
+            Listening listening(ranks);
+            RunOptions options;
+            options.output = path() / folder;
+            options.ranks = &listening;
+            run(described, options);
+            most[static_cast<std::size_t>(ranks.rank())] = listening.most;
+            sum[static_cast<std::size_t>(ranks.rank())] = listening.sum;
+        });
+        REQUIRE(all_are_silent(errors));
+        return std::pair(most, sum);
+    };
+    // 1,022 points a plant.
+    const auto [most_of_one, one_file] = received("one", 1 << 20);
+    const auto [most, twelve_files] = received("twelve", 3 * 1022);
+    REQUIRE(fs::exists(path() / "twelve/plants/0009-11.vtp"));
+    REQUIRE_FALSE(fs::exists(path() / "twelve/plants/0009-12.vtp"));
+    CHECK(one_file[0] > 20 * one_file[1]);
+    CHECK(twelve_files[0] < one_file[0] / 2);
+    CHECK(most[0] < most_of_one[0] / 2);
+    for (const std::size_t rank : {1u, 2u}) CHECK(twelve_files[rank] > twelve_files[0] / 2);
+}
+
+TEST_CASE_METHOD(Spread, "a run whose frames are pieces goes on with another number of ranks", "[simulation][ranks]") {
+    write("other.l", other);
+    const Scene described = scene(others + light + in_pieces);
+    run_alone(described);
+    const auto fail_at_the_sixth_step = [](RunOptions& options, Ranks&) {
+        options.checkpoint_every = 2;
+        options.progress = [](const Progress& progress) {
+            if (progress.step == 8) throw RunError("the machine is gone");
+        };
+    };
+    for (const auto& [before, after] : {std::pair(3u, 2u), std::pair(2u, 1u), std::pair(1u, 4u)}) {
+        INFO(before << " ranks, then " << after);
+        const std::string folder = fmt::format("again-{}", before);
+        for (const std::string& error : run_on(before, described, folder, fail_at_the_sixth_step)) {
+            CHECK_THAT(error, Contains("the machine is gone"));
+        }
+        REQUIRE(fs::exists(path() / folder / "plants/0008-2.vtp"));
+        const auto go_on = [](RunOptions& options, Ranks&) { options.resume = true; };
+        REQUIRE(all_are_silent(run_on(after, described, folder, go_on)));
+        check_same(folder);
+    }
+}
+
+TEST_CASE_METHOD(Spread, "a rank that cannot write its piece ends all, and no index names the frame",
+                 "[simulation][ranks]") {
+    const Scene described = scene(light + in_pieces + "keyframes = [3, 9]\n");
+    fs::create_directories(path() / "full/plants/0009-4.vtp/in the way");
+    const std::vector<std::string> errors = run_on(3, described, "full");
+    CHECK_THAT(errors[0], Contains("rank 1: cannot write") && Contains("0009-4.vtp"));
+    CHECK(errors[2] == errors[0]);
+    CHECK_THAT(errors[1], Contains("cannot write") && Contains("0009-4.vtp"));
+    const std::string index = text_of(path() / "full/plants.pvd");
+    CHECK_THAT(index, Contains("plants/0003.vtp") && !Contains("plants/0009"));
+    CHECK_THAT(text_of(path() / "full/run.json"), Contains("0009-4.vtp"));
+}
+
 TEST_CASE_METHOD(Spread, "what other ranks send must fit into the memory", "[simulation][ranks]") {
     write("doubling.l", doubling);
     const Scene described = read_scene_text(doubling_stand + std::string("statistics = false\n"), "scene.toml", path());
@@ -200,6 +335,18 @@ TEST_CASE_METHOD(Spread, "what other ranks send must fit into the memory", "[sim
     for (const std::string& error : run_on(2, described, "little", with(std::size_t{155} << 20))) {
         CHECK_THAT(error, Contains("step 15: what other ranks send of their plants takes"));
     }
+}
+
+TEST_CASE_METHOD(Spread, "a rank needs memory for the plants of one file at a time", "[simulation][ranks]") {
+    write("doubling.l", doubling);
+    const auto errors = [&](const std::string& folder, const std::string& timeline) {
+        const Scene described =
+            read_scene_text(doubling_stand + std::string("statistics = false\n") + timeline, "scene.toml", path());
+        return run_on(2, described, folder,
+                      [](RunOptions& options, Ranks&) { options.memory = std::size_t{175} << 20; });
+    };
+    CHECK_THAT(errors("whole", "")[0], Contains("what other ranks send of their plants takes"));
+    CHECK(errors("pieces", "points_per_file = 200000\n") == std::vector<std::string>(2));
 }
 
 TEST_CASE_METHOD(Spread, "a run goes on from its checkpoint with another number of ranks", "[simulation][ranks]") {

@@ -134,9 +134,12 @@ inline HandmadePlant branched_plant() {
 /// Records one frame of these plants and waits until it is written: plants and fields may be gone afterwards.
 inline void record(Timeline& timeline, int step, const std::vector<const HandmadePlant*>& plants,
                    const Fields& fields = {}) {
-    std::vector<PlantFrame> frames;
-    for (const HandmadePlant* plant : plants) frames.push_back(plant->frame());
-    timeline.record({step, 0.5 * step, frames, &fields});
+    Frame frame{step, 0.5 * step, {}, &fields};
+    for (const HandmadePlant* plant : plants) {
+        frame.plants.push_back(plant->frame());
+        frame.models.push_back(&plant->model);
+    }
+    timeline.record(frame);
     timeline.wait();
 }
 

@@ -51,6 +51,8 @@ public:
     /// The recorder sees the frames of every step from now on, and what it takes counts against the memory. It outlives
     /// the steps; after the last of them call its finish().
     void attach(Recorder& recorder);
+    /// On the other ranks: the recorder gets the pieces that this rank writes of large frames (Frame::piece).
+    void attach_for_pieces(Recorder& recorder);
 
     /// Before start(): geometry and lineages will not be looked at. They are then not made, unless a process reads them
     /// or a model asks the turtle; frames have strings without lineage and empty interpretations.

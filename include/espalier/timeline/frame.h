@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,12 @@ struct Frame {
     bool is_last = false;                      ///< no step follows in this run
     const Environment* environment = nullptr;  ///< knows what organs have met, until the next step; null: nothing
     // A world that is larger than memory gives its frames in parts, which have some of the plants each, in order.
-    bool begins = true;  ///< the first part
-    bool ends = true;    ///< the last part
+    bool begins = true;                     ///< the first part
+    bool ends = true;                       ///< the last part
+    std::vector<const Model*> models = {};  ///< in the first part: those of all plants, each once, in their order
+    /// Of a frame that several processes write, a file each in turn: the number of the file that shows these plants. In
+    /// the last part, which has none and comes when all files are there: how many there are.
+    std::optional<int> piece = {};
 };
 
 }  // namespace espalier::timeline

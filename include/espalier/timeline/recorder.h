@@ -47,6 +47,9 @@ public:
     virtual bool reads_plants() const { return true; }
     /// False for steps of which it reads no plants, though it does of others. `may_end`: the run may end there.
     virtual bool reads_plants_at(int /*step*/, bool /*may_end*/) const { return reads_plants(); }
+    /// How many points a file of plants has at most, for recorders that read plants for these files alone: several
+    /// processes may then write a frame, some of its pieces each (Frame::piece). 0: one process reads all plants.
+    virtual std::size_t points_per_file() const { return 0; }
     /// The fields it reads, asked for once, before the first frame; {"all"} for every one. Frames of a timeline hold no
     /// others: to make a field that is not read would cost a step as much as the field itself.
     virtual std::vector<std::string> fields() const { return {}; }

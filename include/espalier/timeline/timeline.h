@@ -32,6 +32,8 @@ public:
     /// One of its recorders does.
     bool reads_plants() const override;
     bool reads_plants_at(int step, bool may_end) const override;
+    /// That of the only recorder that reads plants; 0 if there are several.
+    std::size_t points_per_file() const override;
     std::vector<std::string> fields() const override { return fields_; }
     /// All its recorders find the fields that they read.
     void require(const Fields& fields) const override;
@@ -58,7 +60,7 @@ public:
 
 private:
     void make_recorders(Settings& table);
-    bool is_due(const Frame& frame);
+    bool is_due(int step, bool is_last) const;
     void restore(std::istream& in) override;
 
     std::filesystem::path folder_;
@@ -75,5 +77,9 @@ private:
     bool sees_every_step_ = false;     // one of them
     std::unique_ptr<FrameWriter> writer_;
 };
+
+/// For a process that helps another one, which has the Timeline, to write large frames: what records their pieces into
+/// the same folder. Null if that table's Timeline reads all plants in one process.
+std::unique_ptr<Recorder> recorder_of_pieces(const std::filesystem::path& folder, Settings table, int last_step);
 
 }  // namespace espalier::timeline

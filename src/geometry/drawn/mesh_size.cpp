@@ -99,6 +99,11 @@ const std::map<std::uint32_t, MeshSize>& SurfaceSizes::of(const std::shared_ptr<
     return known->second;
 }
 
+// Most organs are rhombi.
+std::size_t points_foreseen(const PlantGeometry& geometry) {
+    return 2 * geometry.internodes.size() + 4 * geometry.organs.size() + geometry.vertices.size();
+}
+
 MeshSize mesh_size(const PlantGeometry& geometry, SurfaceSizes& surfaces, std::size_t vertices) {
     const std::size_t internodes = geometry.internodes.size(), polygons = geometry.polygons.size(),
                       corners = geometry.vertices.size(), pieces = geometry.mesh.pieces.size(),

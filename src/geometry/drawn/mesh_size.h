@@ -31,6 +31,9 @@ private:
     std::map<std::shared_ptr<const Shapes>, std::map<std::uint32_t, MeshSize>> known_;
 };
 
+/// About how many points the mesh will have: by this number frames are cut into files.
+std::size_t points_foreseen(const PlantGeometry& geometry);
+
 /// With so many `vertices` besides what is drawn.
 MeshSize mesh_size(const PlantGeometry& geometry, SurfaceSizes& surfaces, std::size_t vertices = 0);
 

@@ -40,7 +40,7 @@ public:
         bool reads_plants = false;
         if (options.blocks > 0) together(options.ranks, [&] { world_.require_waiting(); });
         together(options.ranks, [&] {
-            if (!records) return;
+            if (!records) return help_to_record();
             if (!options.output.empty()) open_timeline();
             if (options.recorder) world_.attach(*options.recorder);
             reads_plants =
@@ -114,6 +114,13 @@ private:
         record_.note_files_before(files_below(files_folder_of(options_.output)));
         begin_recording();
         record_.begin(*timeline_);
+    }
+
+    // The first rank records; the others write files of large frames for it.
+    void help_to_record() {
+        if (options_.output.empty()) return;
+        of_pieces_ = recorder_of_pieces(options_.output, scene_.timeline, world_.last_step());
+        if (of_pieces_) world_.attach_for_pieces(*of_pieces_);
     }
 
     void begin_recording() {
@@ -298,6 +305,7 @@ private:
     World world_;
     RunRecord record_;
     std::optional<Timeline> timeline_;
+    std::unique_ptr<Recorder> of_pieces_;  ///< of a timeline that another rank has
     std::optional<DiskBudget> disk_;
     const bool is_recorded_ = !options_.output.empty();  ///< by the first rank
     std::size_t warned_ = 0;                             ///< how many of the world's warnings were told

@@ -219,10 +219,13 @@ void Spread::share(std::span<GrowingPlant> plants, Environment& environment, int
     });
 }
 
-void Spread::gather(std::span<GrowingPlant> plants, const Environment& environment, int step) {
+void Spread::deal(std::span<const std::span<GrowingPlant>> to_each, const Environment& environment, int step) {
+    const auto plants_of = [&](int rank) {
+        const auto at = static_cast<std::size_t>(rank);
+        return at < to_each.size() ? to_each[at] : std::span<GrowingPlant>();
+    };
     const std::vector<std::string> received = traded([&](std::ostream& out, int rank) {
-        if (rank != 0) return;
-        for (const GrowingPlant& plant : plants) {
+        for (const GrowingPlant& plant : plants_of(rank)) {
             if (!plant.is_here) continue;
             put(out, plant.number);
             std::vector<double> values;
@@ -231,12 +234,13 @@ void Spread::gather(std::span<GrowingPlant> plants, const Environment& environme
             if (!sends_plants_) put_plant(out, plant);
         }
     });
+    const std::span<GrowingPlant> own = plants_of(ranks_.rank());
     for_received(received, [&](std::uint32_t number, std::istream& in) {
         std::vector<double> values;
         get_column(in, values);
         statistics_[number] = environment.statistics(number);
         for (std::size_t i = 0; i < values.size(); ++i) statistics_[number].at(i).value = values[i];
-        if (!sends_plants_) get_plant(in, plants[number - plants.front().number], step);
+        if (!sends_plants_) get_plant(in, own[number - own.front().number], step);
     });
 }
 
@@ -275,21 +279,26 @@ std::vector<std::string> Spread::states(std::span<const GrowingPlant> plants) {
 // Seconds that each plant takes: those of its rank, by the modules.
 std::vector<double> Spread::weights_of(std::span<const GrowingPlant> plants, double seconds) {
     double modules = 0;
-    std::vector<std::uint32_t> held;
+    for (const GrowingPlant& plant : plants) {
+        if (plant.is_here) modules += static_cast<double>(plant.modules);
+    }
+    return of_each(plants, [&](const GrowingPlant& plant) {
+        return seconds * static_cast<double>(plant.modules) / std::max(modules, 1.0);
+    });
+}
+
+std::vector<double> Spread::of_each(std::span<const GrowingPlant> plants,
+                                    const std::function<double(const GrowingPlant&)>& of) {
+    std::ostringstream out;
     for (const GrowingPlant& plant : plants) {
         if (!plant.is_here) continue;
-        held.push_back(plant.number);
-        modules += static_cast<double>(plant.modules);
+        put(out, plant.number);
+        put(out, of(plant));
     }
-    std::ostringstream out;
-    for (const std::uint32_t number : held) {
-        put(out, number);
-        put(out, seconds * static_cast<double>(plants[number].modules) / std::max(modules, 1.0));
-    }
-    std::vector<double> weights(plants.size());
+    std::vector<double> values(plants.size());
     for_received(from_all(&ranks_, out.str()),
-                 [&](std::uint32_t number, std::istream& in) { weights[number] = get<double>(in); });
-    return weights;
+                 [&](std::uint32_t number, std::istream& in) { values[number] = get<double>(in); });
+    return values;
 }
 
 void Spread::balance(std::span<GrowingPlant> plants, double seconds, std::size_t memory) {

@@ -45,11 +45,14 @@ public:
     /// Before the exchange: plants of others get what processes must see of them. `first_sees_all`: on the first rank,
     /// whose fields are recorded, processes see all queries.
     void share(std::span<GrowingPlant> plants, Environment& environment, int step, bool first_sees_all);
-    /// After the exchange: the first rank gets these plants, which follow each other, and what processes say of each,
-    /// for a part of a frame.
-    void gather(std::span<GrowingPlant> plants, const Environment& environment, int step);
+    /// After the exchange: each rank r gets the plants to_each[r], which follow each other, and what processes say of
+    /// each, for a part of a frame. Ranks behind these get nothing.
+    void deal(std::span<const std::span<GrowingPlant>> to_each, const Environment& environment, int step);
     /// What the processes of the rank that holds a plant say of it.
     std::vector<Quantity> statistics(const Environment& environment, const GrowingPlant& plant) const;
+    /// Returns, on every rank, a number for each plant: what `of` says of it on the rank that holds it.
+    std::vector<double> of_each(std::span<const GrowingPlant> plants,
+                                const std::function<double(const GrowingPlant&)>& of);
     /// Forgets what was received of plants that others hold.
     void forget(std::span<GrowingPlant> plants);
 

@@ -242,84 +242,23 @@ void World::record() {
     state_->end_step();
 }
 
-bool World::State::reads_plants(bool may_end) const {
-    return std::any_of(recorders.begin(), recorders.end(),
-                       [&](const Recorder* recorder) { return recorder->reads_plants_at(step, may_end); });
-}
-
-void World::State::record() {
-    if (spread && any(&spread->ranks(), reads_plants(is_at_end()))) return record_gathered();
-    all_do([&] {
-        if (store && is_drawn) return record_waiting();
-        give_to_recorders(plants, /*begins=*/true, /*ends=*/true);
-    });
-}
-
-// As many as there are ranks, so that the first holds no more of the others' plants at a time than of its own.
-std::span<GrowingPlant> World::State::part(std::size_t i) {
-    const std::size_t begin = plants.size() * i / parts(), end = plants.size() * (i + 1) / parts();
-    return std::span(plants).subspan(begin, end - begin);
-}
-
-void World::State::record_gathered() {
-    for (std::size_t i = 0; i < parts(); ++i) {
-        const std::span<GrowingPlant> some = part(i);
-        spread->gather(some, *environment, step);
-        all_do([&] {
-            memory.check_received(some, step);
-            give_to_recorders(some, i == 0, i + 1 == parts());
-        });
-        spread->forget(some);
-    }
-}
-
 void World::State::record_waiting() {
     const auto& parts = store->parts();
     for (std::size_t i = 0; i < parts.size(); ++i) {
         for_waiting(parts[i], [&](GrowingPlant& plant) { store->show(plant); });
-        give_to_recorders(parts[i], i == 0, i + 1 == parts.size());
+        give(parts[i], i == 0, i + 1 == parts.size());
         for_waiting(parts[i], [&](GrowingPlant& plant) { store->put_back(plant); });
     }
-}
-
-void World::State::give_to_recorders(std::span<const GrowingPlant> some, bool begins, bool ends) {
-    if (recorders.empty()) return;
-    Frame frame = frame_of(some);
-    frame.begins = begins;
-    frame.ends = ends;
-    for (Recorder* recorder : recorders) recorder->record(frame);
-}
-
-// The first rank has the recorders.
-const World::State::Recorded& World::State::what_is_recorded() {
-    if (recorded) return *recorded;
-    Ranks* const ranks = &spread->ranks();
-    const auto any_recorder = [&](const auto& is_one) {
-        return any(ranks, std::any_of(recorders.begin(), recorders.end(), is_one));
-    };
-    recorded.emplace();
-    recorded->anything = any_recorder([](const Recorder*) { return true; });
-    recorded->fields = any_recorder([](const Recorder* recorder) { return !recorder->fields().empty(); });
-    return *recorded;
-}
-
-Frame World::frame() const {
-    return state_->frame_of(state_->plants);
-}
-
-Frame World::State::frame_of(std::span<const GrowingPlant> some) const {
-    Frame frame{step, time(), {}, &environment->fields(), is_at_end(), environment.get()};
-    frame.plants.reserve(some.size());
-    for (const GrowingPlant& plant : some) {
-        frame.plants.push_back(
-            plant.frame(spread ? spread->statistics(*environment, plant) : environment->statistics(plant.number)));
-    }
-    return frame;
 }
 
 void World::attach(Recorder& recorder) {
     state_->recorders.push_back(&recorder);
     state_->memory.count_recorder(recorder);
+}
+
+void World::attach_for_pieces(Recorder& recorder) {
+    state_->gets_only_pieces = true;
+    attach(recorder);
 }
 
 void World::skip_geometry() {

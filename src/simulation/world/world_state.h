@@ -65,13 +65,20 @@ struct World::State {
     void for_waiting(std::span<GrowingPlant> some, const Action& action);
     bool reads_plants(bool may_end) const;
     void record();
-    std::size_t parts() const { return static_cast<std::size_t>(spread->ranks().count()); }
-    std::span<GrowingPlant> part(std::size_t i);
-    void record_gathered();
-    void gather_states(const std::filesystem::path& folder);
     void record_waiting();
-    void give_to_recorders(std::span<const GrowingPlant> some, bool begins, bool ends);
+    void record_spread();
+    void record_by_first();
+    using Piece = std::span<GrowingPlant>;
+    std::size_t points_per_file();
+    std::vector<Piece> pieces_of_frame();
+    Piece plants_between(std::size_t begin, std::size_t end);
+    std::size_t parts() const { return static_cast<std::size_t>(spread->ranks().count()); }
+    Piece part(std::size_t i) { return plants_between(plants.size() * i / parts(), plants.size() * (i + 1) / parts()); }
+    void gather_states(const std::filesystem::path& folder);
+    void record_pieces(std::span<const Piece> pieces);
+    void give(std::span<const GrowingPlant> some, bool begins, bool ends, std::optional<int> piece = {}) const;
     Frame frame_of(std::span<const GrowingPlant> some) const;
+    std::vector<const Model*> models() const;
     bool is_at_end() const { return stopped || step >= last_step(); }
     int last_step() const { return scene.last_frame.value_or(longest); }
     void note_ends();
@@ -96,6 +103,7 @@ struct World::State {
     FieldValues fields;                    ///< while turtles walk, and after a restart until then
     bool has_restored_fields = false;
     std::vector<Recorder*> recorders;
+    bool gets_only_pieces = false;                    ///< the recorder, as another rank has the run's
     std::optional<Recorded> recorded;                 ///< by the first rank; asked for once
     std::unique_ptr<Gathered> gathered;               ///< for a checkpoint of the first rank
     std::size_t modules_of_all = 0;                   ///< on all ranks

@@ -11,7 +11,7 @@ LastFrame::LastFrame(const Settings& timeline) : columns_(std::make_unique<Frame
 LastFrame::~LastFrame() = default;
 
 void LastFrame::record(const Frame& frame) {
-    if (frame.step == 0) columns_->require_known(frame.plants);
+    if (frame.step == 0) columns_->require_known(frame.models);
     if (!frame.is_last) return;
     step_ = frame.step;
     time_ = frame.time;

@@ -106,6 +106,16 @@ FrameSelection frames_of(const Settings& table) {
     return frames;
 }
 
+using Recorders = std::vector<std::unique_ptr<Recorder>>;
+
+Recorders recorders_of(Settings& table, const RecorderContext& context) {
+    Recorders recorders;
+    for (const auto& [name, type] : registered<RecorderType>()) {
+        if (auto recorder = type->make(table, context)) recorders.push_back(std::move(recorder));
+    }
+    return recorders;
+}
+
 }  // namespace
 
 Timeline::Timeline(const fs::path& folder, Settings table, int last_step, bool overwrite)
@@ -131,10 +141,7 @@ Timeline::Timeline(const fs::path& folder, Settings table, int last_step, const 
 void Timeline::make_recorders(Settings& table) {
     frames_ = frames_of(table);
     next_ = frames_.after(-1);
-    const RecorderContext context{folder_, last_step_};
-    for (const auto& [name, type] : registered<RecorderType>()) {
-        if (auto recorder = type->make(table, context)) recorders_.push_back(std::move(recorder));
-    }
+    recorders_ = recorders_of(table, {folder_, last_step_});
     table.reject_unread();
     std::vector<std::string> organs;
     for (const auto& recorder : recorders_) {
@@ -158,10 +165,19 @@ bool Timeline::reads_plants() const {
 }
 
 bool Timeline::reads_plants_at(int step, bool may_end) const {
-    const bool may_be_due = step >= next_ || step >= last_step_ || may_end;
     return std::any_of(recorders_.begin(), recorders_.end(), [&](const auto& recorder) {
-        return recorder->reads_plants() && (may_be_due || recorder->sees_every_step());
+        return recorder->reads_plants() && (recorder->sees_every_step() || is_due(step, may_end));
     });
+}
+
+std::size_t Timeline::points_per_file() const {
+    std::size_t readers = 0, points = 0;
+    for (const auto& recorder : recorders_) {
+        if (!recorder->reads_plants()) continue;
+        ++readers;
+        points = recorder->points_per_file();
+    }
+    return readers == 1 ? points : 0;
 }
 
 void Timeline::require(const Fields& fields) const {
@@ -175,19 +191,21 @@ void Timeline::choose(FrameSelection frames) {
 }
 
 void Timeline::record(const Frame& frame) {
-    if (frame.begins) is_due_ = is_due(frame);
+    if (frame.begins) {
+        is_due_ = is_due(frame.step, frame.is_last);
+        if (frame.step >= next_) next_ = frames_.after(frame.step);
+    }
     if (is_due_ || sees_every_step_) writer_->add(frame, is_due_);
+    if (frame.piece) writer_->wait();  // whoever writes the others waits, too
     if (!frame.ends) return;
     if (is_due_ && !recorded_) writer_->wait();
     recorded_ = recorded_ || is_due_;
 }
 
-bool Timeline::is_due(const Frame& frame) {
-    const bool chosen = frame.step >= next_;
-    if (chosen) next_ = frames_.after(frame.step);
-    const bool ends = frame.is_last || (!exactly_ && frame.step == last_step_);
-    const bool stopped = frame.is_last && frame.step < last_step_;
-    return chosen || stopped || (ends && !(exactly_ && recorded_));
+bool Timeline::is_due(int step, bool is_last) const {
+    const bool ends = is_last || (!exactly_ && step == last_step_);
+    const bool stopped = is_last && step < last_step_;
+    return step >= next_ || stopped || (ends && !(exactly_ && recorded_));
 }
 
 RecordedMemory Timeline::memory(int step, const ModuleString& string, const Interpretation& interpretation) const {
@@ -241,6 +259,13 @@ void Timeline::finish() {
 
 void Timeline::write_run(const std::string& json) const {
     write_text(folder_ / "run.json", json);
+}
+
+std::unique_ptr<Recorder> recorder_of_pieces(const fs::path& folder, Settings table, int last_step) {
+    Recorders recorders = recorders_of(table, {folder, last_step});
+    std::erase_if(recorders, [](const auto& recorder) { return !recorder->reads_plants(); });
+    const bool is_alone = recorders.size() == 1 && recorders.front()->points_per_file() > 0;
+    return is_alone ? std::move(recorders.front()) : nullptr;
 }
 
 }  // namespace espalier::timeline

@@ -54,8 +54,8 @@ std::vector<std::string> ModuleQuantities::names() const {
     return names;
 }
 
-void ModuleQuantities::require_known(std::span<const PlantFrame> plants) const {
-    timeline::require_known(parameters_, plants);
+void ModuleQuantities::require_known(std::span<const Model* const> models) const {
+    timeline::require_known(parameters_, models);
 }
 
 std::vector<double> ModuleQuantities::of(const PlantFrame& plant) const {

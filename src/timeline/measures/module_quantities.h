@@ -16,8 +16,8 @@ public:
     explicit ModuleQuantities(const Settings& table);
 
     std::vector<std::string> names() const;
-    /// Throws UserError for symbols that no plant's model has.
-    void require_known(std::span<const PlantFrame> plants) const;
+    /// Throws UserError for symbols that no model has.
+    void require_known(std::span<const Model* const> models) const;
     /// In the order of the names. NaN: the mean, least and greatest value where there is no such module.
     std::vector<double> of(const PlantFrame& plant) const;
 

@@ -18,10 +18,10 @@ constexpr std::array own_names{"identity", "parent", "plant",  "symbol", "birth"
                                "colour",   "kind",   "radius", "pixels", "symbol_names"};
 
 // Only symbols with parameters: the names a user may have meant.
-std::vector<std::string> symbols_of(std::span<const PlantFrame> plants) {
+std::vector<std::string> symbols_of(std::span<const Model* const> models) {
     std::set<std::string> names;
-    for (const PlantFrame& plant : plants) {
-        const Alphabet& alphabet = plant.model->alphabet;
+    for (const Model* model : models) {
+        const Alphabet& alphabet = model->alphabet;
         for (std::size_t i = 0; i < alphabet.size(); ++i) {
             if (alphabet.arity(static_cast<LetterId>(i)) > 0) names.insert(alphabet.name(static_cast<LetterId>(i)));
         }
@@ -55,10 +55,10 @@ SymbolLetters letters_of(const std::string& symbol, const Alphabet& alphabet) {
 }
 
 // The most parameters a symbol has in any model; nothing if no model has it.
-std::optional<int> most_parameters(const std::string& symbol, std::span<const PlantFrame> plants) {
+std::optional<int> most_parameters(const std::string& symbol, std::span<const Model* const> models) {
     std::optional<int> most;
-    for (const PlantFrame& plant : plants) {
-        const Alphabet& alphabet = plant.model->alphabet;
+    for (const Model* model : models) {
+        const Alphabet& alphabet = model->alphabet;
         const SymbolLetters letters = letters_of(symbol, alphabet);
         for (const LetterId letter : letters.last) most = std::max(most.value_or(0), alphabet.arity(letter));
     }
@@ -96,12 +96,12 @@ std::vector<ChosenParameter> read_chosen_parameters(const Settings& table) {
     return chosen;
 }
 
-void require_known(std::span<const ChosenParameter> chosen, std::span<const PlantFrame> plants) {
-    if (plants.empty()) return;
+void require_known(std::span<const ChosenParameter> chosen, std::span<const Model* const> models) {
+    if (models.empty()) return;
     for (const ChosenParameter& parameter : chosen) {
-        const std::optional<int> most = most_parameters(parameter.symbol, plants);
+        const std::optional<int> most = most_parameters(parameter.symbol, models);
         if (!most) {
-            const std::vector<std::string> symbols = symbols_of(plants);
+            const std::vector<std::string> symbols = symbols_of(models);
             throw UserError(
                 parameter.place,
                 fmt::format("no model of this scene has a module '{}'{}; those with parameters are {}",
@@ -111,15 +111,6 @@ void require_known(std::span<const ChosenParameter> chosen, std::span<const Plan
             throw UserError(parameter.place, fmt::format("module '{}' has no parameter number {}; it has {} at most",
                                                          parameter.symbol, parameter.number, *most));
         }
-    }
-}
-
-void add_models(std::span<const PlantFrame> plants, std::vector<PlantFrame>& models) {
-    for (const PlantFrame& plant : plants) {
-        const auto is_same = [&](const PlantFrame& known) { return known.model == plant.model; };
-        if (!models.empty() && is_same(models.back())) continue;
-        if (std::any_of(models.begin(), models.end(), is_same)) continue;
-        models.emplace_back().model = plant.model;
     }
 }
 

@@ -26,10 +26,8 @@ ChosenParameter chosen_parameter(const std::string& text, const std::string& nam
 /// Reads the table. Throws UserError for text that is not SYMBOL.NUMBER and for names the timeline uses itself.
 std::vector<ChosenParameter> read_chosen_parameters(const Settings& table);
 
-/// Throws UserError for a symbol none of the plants' models has, or a number it has no parameter for.
-void require_known(std::span<const ChosenParameter> chosen, std::span<const PlantFrame> plants);
-/// Adds a plant of each model that `models` lacks, without its values: what require_known() needs of a frame in parts.
-void add_models(std::span<const PlantFrame> plants, std::vector<PlantFrame>& models);
+/// Throws UserError for a symbol none of the models has, or a number it has no parameter for.
+void require_known(std::span<const ChosenParameter> chosen, std::span<const Model* const> models);
 
 /// Where the modules of one model keep a chosen parameter. Only the last module of a symbol of several characters, as
 /// `?E` or `@o`, has parameters; those before it are modules of their own.

@@ -91,10 +91,8 @@ bool FrameColumns::shows_queries() const {
     return std::any_of(chosen_.begin(), chosen_.end(), [](const ChosenParameter& one) { return one.of_query(); });
 }
 
-// Most organs are rhombi.
-std::size_t FrameColumns::points_foreseen(const Interpretation& interpretation) {
-    const PlantGeometry& drawn = interpretation.geometry;
-    return 2 * drawn.internodes.size() + 4 * drawn.organs.size() + drawn.vertices.size();
+void FrameColumns::expect(std::span<const Model* const> models) {
+    for (const Model* model : models) symbols_.of(*model);
 }
 
 MeshSize FrameColumns::foreseen(const Interpretation& interpretation) const {
@@ -115,7 +113,7 @@ void FrameColumns::fill(const Frame& frame) {
 
 void FrameColumns::fill_mesh(const Frame& frame) {
     std::size_t points = 0;
-    for (const PlantFrame& plant : frame.plants) points += points_foreseen(*plant.interpretation);
+    for (const PlantFrame& plant : frame.plants) points += points_foreseen(plant.interpretation->geometry);
     mesh_.reserve(points);
     for (std::uint32_t i = 0; i < frame.plants.size(); ++i) {
         const PlantFrame& plant = frame.plants[i];

@@ -28,8 +28,10 @@ public:
     /// `timeline` chooses parameters and quantities of organs.
     FrameColumns(std::optional<std::filesystem::path> folder, const Settings& timeline);
 
-    /// Throws UserError for parameters that none of their models has.
-    void require_known(std::span<const PlantFrame> plants) const { timeline::require_known(chosen_, plants); }
+    /// Throws UserError for parameters that none of the models has.
+    void require_known(std::span<const Model* const> models) const { timeline::require_known(chosen_, models); }
+    /// Frames show plants of these models from now on: their symbols have numbers in this order, behind those known.
+    void expect(std::span<const Model* const> models);
     /// Throws UserError for quantities of organs that no process knows.
     void fill(const Frame& frame);
     /// Adds all but the time to a file that has begun.
@@ -41,8 +43,6 @@ public:
     /// Frees the memory of the frame.
     void release();
 
-    /// How many points a plant's part of the mesh will have, about. Thread safe.
-    static std::size_t points_foreseen(const Interpretation& interpretation);
     /// How large a plant's part of the mesh will be. Thread safe.
     MeshSize foreseen(const Interpretation& interpretation) const;
     /// How many numbers of each module are chosen.

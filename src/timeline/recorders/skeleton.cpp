@@ -13,8 +13,10 @@
 
 #include "base/bytes.h"
 #include "base/folder.h"
+#include "geometry/drawn/mesh_size.h"
 #include "timeline/files/collection_file.h"
 #include "timeline/files/vtk_file.h"
+#include "timeline/frames/frame_cut.h"
 #include "timeline/meshes/frame_columns.h"
 
 #include <fmt/format.h>
@@ -50,24 +52,24 @@ public:
               static_cast<std::size_t>(settings.integer_or("points_per_file", 1 << 22, Range::between(1, 1e9)))),
           columns_(std::filesystem::path(settings.place().file).parent_path(), settings) {}
 
+    std::size_t points_per_file() const override { return most_points_; }
     std::vector<std::string> organs() const override { return columns_.organs(); }
 
     void record(const Frame& frame) override {
-        if (is_first_) add_models(frame.plants, models_);
-        if (frame.begins) piece_ = 0;
-        if (frame.ends && waiting_.empty() && points_of(frame.plants) <= most_points_) return end(frame);
+        if (frame.begins) begin(frame);
+        if (frame.piece) return record_piece(frame);
+        if (frame.begins && frame.ends && points_of(frame.plants) <= most_points_) {
+            write_piece(frame);
+            return end();
+        }
         const auto rest = [&] { return part_of(frame, std::exchange(waiting_, {})); };
         for (const PlantFrame& plant : frame.plants) {
-            points_ += FrameColumns::points_foreseen(*plant.interpretation);
-            if (points_ > most_points_ && !waiting_.empty()) {
-                write_piece(rest());
-                points_ = FrameColumns::points_foreseen(*plant.interpretation);
-            }
+            if (cut_.is_before(points_foreseen(plant.interpretation->geometry))) write_piece(rest());
             waiting_.push_back(plant);
         }
         if (!frame.ends) return;
-        end(rest());
-        points_ = 0;
+        write_piece(rest());
+        end();
     }
 
     void finish() override {
@@ -116,21 +118,44 @@ private:
 
     static std::size_t points_of(std::span<const PlantFrame> plants) {
         std::size_t points = 0;
-        for (const PlantFrame& plant : plants) points += FrameColumns::points_foreseen(*plant.interpretation);
+        for (const PlantFrame& plant : plants) points += points_foreseen(plant.interpretation->geometry);
         return points;
     }
 
     static Frame part_of(const Frame& frame, std::vector<PlantFrame> plants) {
-        Frame part = frame;
-        part.plants = std::move(plants);
-        return part;
+        return {frame.step, frame.time, std::move(plants), frame.fields, frame.is_last, frame.environment};
     }
 
-    void end(const Frame& last_piece) {
-        if (std::exchange(is_first_, false)) columns_.require_known(std::exchange(models_, {}));
-        write_piece(last_piece);
+    static std::string file_of(int step, int piece) {
+        return piece == 0 ? fmt::format("plants/{:04}.vtp", step) : fmt::format("plants/{:04}-{}.vtp", step, piece);
+    }
+
+    void begin(const Frame& frame) {
+        if (std::exchange(is_first_, false)) columns_.require_known(frame.models);
+        columns_.expect(frame.models);
+        cut_ = FrameCut(most_points_);
+        piece_ = 0;
+    }
+
+    void end() {
         if (piece_ > 1) written_.clear();
         collection_.write();
+    }
+
+    // The pieces between those that come here are written by others.
+    void record_piece(const Frame& frame) {
+        for (; piece_ < *frame.piece; ++piece_) {
+            collection_.add(frame.time, piece_, "plants", file_of(frame.step, piece_));
+        }
+        if (!frame.ends) return write_piece(frame);
+        for (int piece = 1; piece < piece_; ++piece) require_file(folder_ / file_of(frame.step, piece));
+        end();
+    }
+
+    static void require_file(const std::filesystem::path& path) {
+        if (std::filesystem::exists(path)) return;
+        throw RunError(fmt::format("{} is not there, though another rank wrote it: all must see the same output folder",
+                                   path.string()));
     }
 
     // A frame that is one piece may be the same as the one before.
@@ -145,8 +170,7 @@ private:
         const std::string before = std::exchange(written_, {});  // in case something throws
         before.empty() ? file_.begin("PolyData") : file_.begin_after("PolyData");
         columns_.put_into(file_, frame.time, frame.step);
-        const std::string name = piece_ == 0 ? fmt::format("plants/{:04}.vtp", frame.step)
-                                             : fmt::format("plants/{:04}-{}.vtp", frame.step, piece_);
+        const std::string name = file_of(frame.step, piece_);
         make_folder(folder_ / "plants");
         file_.write(folder_ / name);
         written_ = name;
@@ -160,9 +184,8 @@ private:
     /// The file of the frame before, relative to the folder; empty if there is none, or several.
     std::string written_;
     bool is_first_ = true;
-    std::vector<PlantFrame> models_;   ///< of the first frame so far
+    FrameCut cut_{most_points_};
     std::vector<PlantFrame> waiting_;  ///< of the piece to come
-    std::size_t points_ = 0;           ///< of those
     int piece_ = 0;                    ///< pieces of the frame so far
     VtkFile file_;
 };

@@ -51,11 +51,10 @@ public:
     bool sees_every_step() const override { return true; }
 
     void record(const Frame& frame) override {
-        if (previous_step_ < 0) add_models(frame.plants, models_);
+        if (previous_step_ < 0 && frame.begins) own_.require_known(frame.models);
         if (!file_) begin(frame);
         for (const PlantFrame& plant : frame.plants) rows_ += row(frame, plant);
         if (!frame.ends) return;
-        if (previous_step_ < 0) own_.require_known(std::exchange(models_, {}));
         file_->append(std::exchange(rows_, {}));
         previous_step_ = frame.step;
     }
@@ -125,7 +124,6 @@ private:
     std::vector<std::string> quantities_;
     ModuleQuantities own_;
     std::string rows_;                              ///< of the frame so far
-    std::vector<PlantFrame> models_;                ///< of the first frame so far
     std::map<std::uint32_t, std::size_t> modules_;  ///< per plant, one step ago
     int previous_step_ = -1;
 };
