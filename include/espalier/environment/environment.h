@@ -104,7 +104,6 @@ private:
     bool is_routed(const Query& query) const;
     static void begin_answers(Batch& batch);
     void send(std::size_t process);
-    bool is_sound(const Query& query, std::size_t process) const;
     void throw_unsound(const Query& query, std::size_t process, const PlantView& plant, int step) const;
     void consult(std::size_t process, const WorldView& world);
     void round_answers(std::size_t process);

@@ -10,20 +10,25 @@ void AnswerStatistics::clear() {
 }
 
 void AnswerStatistics::add(std::uint32_t plant, double value) {
-    if (plant >= totals_.size()) totals_.resize(plant + 1);
-    Totals& totals = totals_[plant];
-    totals.least = totals.count == 0 ? value : std::min(totals.least, value);
-    totals.most = totals.count == 0 ? value : std::max(totals.most, value);
-    totals.sum += value;
-    totals.count += 1;
-    totals.ones += value == 1;
+    totals_of(plant).add(value);
 }
 
+// The totals of a plant stay in registers while its answers follow each other.
 void AnswerStatistics::sum_up(std::span<const Query> queries, std::span<const Answer> answers, std::size_t index) {
     clear();
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-        if (index < answers[i].size()) add(queries[i].plant, answers[i][index]);
+    for (std::size_t i = 0; i < queries.size();) {
+        Totals& kept = totals_of(queries[i].plant);
+        Totals totals = kept;
+        for (const std::uint32_t plant = queries[i].plant; i < queries.size() && queries[i].plant == plant; ++i) {
+            if (index < answers[i].size()) totals.add(answers[i][index]);
+        }
+        kept = totals;
     }
+}
+
+AnswerStatistics::Totals& AnswerStatistics::totals_of(std::uint32_t plant) {
+    if (plant >= totals_.size()) totals_.resize(plant + 1);
+    return totals_[plant];
 }
 
 std::vector<Quantity> AnswerStatistics::quantities(std::uint32_t plant) const {

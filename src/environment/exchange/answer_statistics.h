@@ -3,6 +3,7 @@
 
 #include "espalier/environment/environment_process.h"
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -25,7 +26,16 @@ public:
 private:
     struct Totals {
         double sum = 0, count = 0, least = 0, most = 0, ones = 0;
+
+        void add(double value) {
+            least = count == 0 ? value : std::min(least, value);
+            most = count == 0 ? value : std::max(most, value);
+            sum += value;
+            count += 1;
+            ones += value == 1;
+        }
     };
+    Totals& totals_of(std::uint32_t plant);
     Totals of(std::uint32_t plant) const { return plant < totals_.size() ? totals_[plant] : Totals(); }
 
     std::vector<Totals> totals_;

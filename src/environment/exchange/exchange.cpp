@@ -35,6 +35,14 @@ std::string described(const PlantView& plant, int step) {
     return fmt::format("step {}: plant {} (model {})", step, plant.plant, plant.model->name);
 }
 
+// A module may be written by a rule that `require_answers` has not seen, and a NaN may come out of any expression.
+bool is_sound(const Query& query, std::pair<int, int> arity) {
+    const auto given = static_cast<int>(query.parameters.size());
+    bool sound = given >= arity.first && given <= arity.second;
+    for (const double value : query.parameters) sound = sound && std::isfinite(value);
+    return sound;
+}
+
 void write_turtle_answers(const WorldView& world, std::span<ModuleString*> strings) {
     for (const PlantView& plant : world.plants) {
         if (!plant.asks) continue;
@@ -115,11 +123,12 @@ bool Environment::borrow(const WorldView& world) {
     name_processes(*only);
     const std::optional<std::size_t> process = process_for(first, *only, world.step);
     if (!process) return false;
+    const std::pair<int, int> arity = arities_[*process];
     std::atomic<bool> alike = true;
     for_blocks(queries.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Query& query = queries[i];
-            if (query.process != first.process || !is_sound(query, *process)) alike = false;
+            if (query.process != first.process || !is_sound(query, arity)) alike = false;
         }
     });
     if (!alike) return false;
@@ -146,7 +155,7 @@ void Environment::gather(const PlantView& plant, std::span<const Query> queries,
             query.parameters = query.parameters.subspan(1);
             ++query.parameters_at;
         }
-        if (!is_sound(query, *process)) throw_unsound(query, *process, plant, step);
+        if (!is_sound(query, arities_[*process])) throw_unsound(query, *process, plant, step);
     }
 }
 
@@ -229,15 +238,6 @@ void Environment::send(std::size_t process) {
         }
     });
     batch.queries = batch.copies;
-}
-
-// A module may be written by a rule that `require_answers` has not seen, and a NaN may come out of any expression.
-bool Environment::is_sound(const Query& query, std::size_t process) const {
-    const auto [fewest, most] = arities_[process];
-    const auto given = static_cast<int>(query.parameters.size());
-    bool sound = given >= fewest && given <= most;
-    for (const double value : query.parameters) sound = sound && std::isfinite(value);
-    return sound;
 }
 
 void Environment::throw_unsound(const Query& query, std::size_t process, const PlantView& plant, int step) const {
