@@ -13,16 +13,18 @@ void AnswerStatistics::add(std::uint32_t plant, double value) {
     totals_of(plant).add(value);
 }
 
-// The totals of a plant stay in registers while its answers follow each other.
+// Queries come in the order of the plants. The totals of one stay in registers, and the queries of the last one need
+// not be read.
 void AnswerStatistics::sum_up(std::span<const Query> queries, std::span<const Answer> answers, std::size_t index) {
     clear();
     for (std::size_t i = 0; i < queries.size();) {
-        Totals& kept = totals_of(queries[i].plant);
-        Totals totals = kept;
-        for (const std::uint32_t plant = queries[i].plant; i < queries.size() && queries[i].plant == plant; ++i) {
+        const std::uint32_t plant = queries[i].plant;
+        const bool is_last = plant == queries.back().plant;
+        Totals totals = totals_of(plant);
+        for (; i < queries.size() && (is_last || queries[i].plant == plant); ++i) {
             if (index < answers[i].size()) totals.add(answers[i][index]);
         }
-        kept = totals;
+        totals_of(plant) = totals;
     }
 }
 

@@ -12,6 +12,7 @@
 #include <atomic>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 namespace espalier::environment {
 namespace {
@@ -79,6 +80,7 @@ void Environment::gather(const WorldView& world) {
     for (Batch& batch : batches_) {
         batch.copies.clear();
         batch.queries = {};
+        batch.parameters.clear();
     }
     last_model_ = nullptr;
     if (world.waiting || !borrow(world)) {
@@ -124,16 +126,23 @@ bool Environment::borrow(const WorldView& world) {
     const std::optional<std::size_t> process = process_for(first, *only, world.step);
     if (!process) return false;
     const std::pair<int, int> arity = arities_[*process];
+    Batch& batch = batches_[*process];
+    batch.parameters.resize(blocks(queries.size()));
     std::atomic<bool> alike = true;
     for_blocks(queries.size(), [&](std::size_t begin, std::size_t end) {
+        std::size_t parameters = 0;
         for (std::size_t i = begin; i < end; ++i) {
             const Query& query = queries[i];
             if (query.process != first.process || !is_sound(query, arity)) alike = false;
+            parameters += query.parameters.size();
         }
+        batch.parameters[begin / block] = parameters;
     });
-    if (!alike) return false;
-    batches_[*process].queries = queries;
-    return true;
+    if (alike)
+        batch.queries = queries;
+    else
+        batch.parameters.clear();
+    return alike;
 }
 
 // Many plants share a model.
@@ -162,14 +171,15 @@ void Environment::gather(const PlantView& plant, std::span<const Query> queries,
 // Answers begin as copies of the parameters.
 void Environment::begin_answers(Batch& batch) {
     const std::span<const Query> queries = batch.queries;
-    std::vector<std::size_t> begins(blocks(queries.size()) + 1, 0);
-    for_blocks(queries.size(), [&](std::size_t begin, std::size_t end) {
-        std::size_t parameters = 0;
-        for (std::size_t i = begin; i < end; ++i) parameters += queries[i].parameters.size();
-        begins[begin / block + 1] = parameters;
-    });
-    for (std::size_t i = 1; i < begins.size(); ++i) begins[i] += begins[i - 1];
-    batch.values.resize(begins.back());
+    if (batch.parameters.empty()) {
+        batch.parameters.resize(blocks(queries.size()));
+        for_blocks(queries.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) batch.parameters[begin / block] += queries[i].parameters.size();
+        });
+    }
+    std::vector<std::size_t> begins(batch.parameters.size());
+    std::exclusive_scan(batch.parameters.begin(), batch.parameters.end(), begins.begin(), std::size_t{0});
+    batch.values.resize(std::reduce(batch.parameters.begin(), batch.parameters.end()));
     batch.answers.resize(queries.size());
     for_blocks(queries.size(), [&](std::size_t begin, std::size_t end) {
         double* next = batch.values.data() + begins[begin / block];

@@ -17,7 +17,7 @@ namespace espalier::environment {
 /// cell costs memory. Cells are numbered as their first members come; their table is probed linearly.
 class PointGrid {
 public:
-    /// Holds the points whose numbers `members` lists; within a cell they keep its order. Copies the positions.
+    /// Holds the points whose numbers `members` lists; within a cell they keep its order.
     /// Cells are made larger than `edge` where that is too fine for the precision of the coordinates.
     PointGrid(std::span<const glm::dvec3> points, std::span<const std::uint32_t> members, double edge);
 
