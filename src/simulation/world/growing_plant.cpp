@@ -26,15 +26,14 @@ void round_as_stored(ModuleString& string, Arithmetic arithmetic) {
 
 GrowingPlant::GrowingPlant(std::uint32_t plant, const Plant& from, std::shared_ptr<const SymbolTable> symbols,
                            const DerivationSettings& settings)
-    : number(plant),
-      description(&from),
+    : description(&from),
       derivation(from.model, settings),
-      settings_(settings),
+      number(plant),
+      has_pictures_(derivation.has_homomorphism()),
       model_(&source_of(*from.model)),
-      insertions_(from),
       symbols_(std::move(symbols)),
-      stage_key_(settings.seed, settings.plant, Stream::stage),
-      has_pictures_(derivation.has_homomorphism()) {
+      insertions_(from),
+      settings_(settings) {
     note_derived();
 }
 
@@ -103,7 +102,7 @@ void GrowingPlant::derive(ModuleString* spare) {
 
 // The seed and the steps are those of every other time, so that an organ keeps its identity and its random numbers.
 void GrowingPlant::regrow(ModuleString& to) {
-    regrown_.emplace(description->in_time->at_step(derivation.steps_done()), settings_);
+    regrown_ = std::make_unique<Derivation>(description->in_time->at_step(derivation.steps_done()), settings_);
     regrown_->set_lineage(true);
     ModuleString from;
     regrown_->start(to);
@@ -147,9 +146,20 @@ void GrowingPlant::interpret(const FieldValues& fields, double time) {
     if (description->stages.empty()) return;
     Interpretation& staged = staged_.for_writing();
     staged = result;
-    StagedPlant plant{staged.geometry, *string, stage_key_, description->turtle.pose.heading, time};
+    const RandomKey key(settings_.seed, settings_.plant, Stream::stage);
+    StagedPlant plant{staged.geometry, *string, key, description->turtle.pose.heading, time};
     apply(now ? now->stages : description->stages, plant);
     is_staged_ = true;
+}
+
+void GrowingPlant::prefetch_itself() const {
+    constexpr std::size_t often_read = 4 * 64;
+    prefetch(this, often_read);
+}
+
+void GrowingPlant::prefetch_string() const {
+    prefetch(&*string, sizeof(ModuleString));
+    prefetch(&description->in_time, sizeof(description->in_time));
 }
 
 void GrowingPlant::prefetch_values() const {
