@@ -5,6 +5,7 @@
 #include "simulation/scene/scene_keyframes.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace espalier::simulation {
@@ -135,12 +136,12 @@ void GrowingPlant::interpret(const FieldValues& fields, double time) {
     const Derivation* pictures = has_pictures_ ? &drawing() : nullptr;
     const std::shared_ptr<const Drawing> now =
         description->drawing_in_time ? description->drawing_in_time->at_step(derivation.steps_done()) : nullptr;
-    TurtleSettings turtle_now;
+    std::optional<TurtleSettings> turtle_now;
     if (now) {
         turtle_now = now->turtle;
-        turtle_now.pose = description->turtle.pose;
+        turtle_now->pose = description->turtle.pose;
     }
-    espalier::interpret(model(), *symbols_, *string, now ? turtle_now : description->turtle, pictures,
+    espalier::interpret(model(), *symbols_, *string, turtle_now ? *turtle_now : description->turtle, pictures,
                         {number, &fields}, result);
     asks_ = result.asks();
     if (description->stages.empty()) return;

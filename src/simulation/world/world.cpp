@@ -8,7 +8,6 @@
 #include "simulation/spread/plant_bytes.h"
 #include "simulation/world/every_plant.h"
 #include "simulation/world/world_state.h"
-#include "turtle/asking.h"
 
 #include <fmt/format.h>
 
@@ -208,6 +207,7 @@ void World::exchange() {
 }
 
 void World::State::exchange() {
+    if (!exchanges) return;
     std::vector<PlantView> views;
     std::vector<ModuleString*> strings;
     views.reserve(plants.size());
@@ -323,9 +323,7 @@ void World::attach(Recorder& recorder) {
 
 void World::skip_geometry() {
     State& state = *state_;
-    const bool asks = std::any_of(state.plants.begin(), state.plants.end(),
-                                  [](const GrowingPlant& plant) { return has_queries(plant.model().alphabet); });
-    state.is_seen = asks || !state.scene.environment.processes.empty();
+    state.is_seen = state.exchanges;
     for (GrowingPlant& plant : state.plants) plant.derivation.set_lineage(state.is_seen);
 }
 
