@@ -30,7 +30,7 @@ GrowingPlant::GrowingPlant(std::uint32_t plant, const Plant& from, std::shared_p
     : description(&from),
       derivation(from.model, settings),
       number(plant),
-      has_pictures_(derivation.has_homomorphism()),
+      is_plain_(!derivation.has_homomorphism() && from.stages.empty() && !from.in_time && !from.drawing_in_time),
       model_(&source_of(*from.model)),
       symbols_(std::move(symbols)),
       insertions_(from),
@@ -85,7 +85,7 @@ void GrowingPlant::write_axiom(ModuleString* spare) {
 }
 
 void GrowingPlant::derive(ModuleString* spare) {
-    if (!description->in_time) {
+    if (is_plain_ || !description->in_time) {
         return rewrite([&](const ModuleString& from, ModuleString& to) { derivation.step(from, to); }, spare);
     }
     rewrite(
@@ -133,9 +133,10 @@ void GrowingPlant::rewrite(const Rewrite& rewrite, ModuleString* spare) {
 
 void GrowingPlant::interpret(const FieldValues& fields, double time) {
     Interpretation& result = interpretation.for_writing();
-    const Derivation* pictures = has_pictures_ ? &drawing() : nullptr;
+    const Derivation* pictures = !is_plain_ && derivation.has_homomorphism() ? &drawing() : nullptr;
+    const bool changes = !is_plain_ && description->drawing_in_time;
     const std::shared_ptr<const Drawing> now =
-        description->drawing_in_time ? description->drawing_in_time->at_step(derivation.steps_done()) : nullptr;
+        changes ? description->drawing_in_time->at_step(derivation.steps_done()) : nullptr;
     std::optional<TurtleSettings> turtle_now;
     if (now) {
         turtle_now = now->turtle;
@@ -144,7 +145,7 @@ void GrowingPlant::interpret(const FieldValues& fields, double time) {
     espalier::interpret(model(), *symbols_, *string, turtle_now ? *turtle_now : description->turtle, pictures,
                         {number, &fields}, result);
     asks_ = result.asks();
-    if (description->stages.empty()) return;
+    if (is_plain_ || description->stages.empty()) return;
     Interpretation& staged = staged_.for_writing();
     staged = result;
     const RandomKey key(settings_.seed, settings_.plant, Stream::stage);
@@ -160,13 +161,12 @@ void GrowingPlant::prefetch_itself() const {
 
 void GrowingPlant::prefetch_string() const {
     prefetch(&*string, sizeof(ModuleString));
-    prefetch(&description->in_time, sizeof(description->in_time));
 }
 
 void GrowingPlant::prefetch_values() const {
     prefetch(&*string, sizeof(ModuleString));
     prefetch(&*interpretation, sizeof(Interpretation));
-    prefetch(description, sizeof(Plant));
+    prefetch(&description->turtle, sizeof(TurtleSettings));
 }
 
 void GrowingPlant::prefetch_for_derivation() const {

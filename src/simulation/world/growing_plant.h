@@ -75,6 +75,8 @@ public:
     std::uint32_t number;
     /// For light and recorders: the interpretation as the geometry stages leave it.
     const Interpretation& drawn() const { return *shown(); }
+    /// Geometry stages changed what is drawn of this step.
+    bool is_staged() const { return is_staged_; }
 
 private:
     void regrow(ModuleString& to);
@@ -85,7 +87,8 @@ private:
 
     bool asks_ = false;
     bool is_staged_ = false;  ///< what is drawn of this step is in staged_
-    bool has_pictures_;
+    /// Without pictures and stages, and nothing of it changes with time: most of its description is never read.
+    bool is_plain_;
     bool keeps_previous_ = false;
     const Model* model_;
     std::shared_ptr<const SymbolTable> symbols_;
