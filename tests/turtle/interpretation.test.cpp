@@ -134,6 +134,31 @@ TEST_CASE("a new axis begins after a bracket and after a jump", "[turtle]") {
     CHECK(axes == std::vector<std::uint32_t>{0, 0, 1, 0, 2, 3, 4, 4});
 }
 
+TEST_CASE("a walk that nothing interrupts draws the same as one with an action behind each letter, bit for bit",
+          "[turtle]") {
+    std::string whole, interrupted;
+    for (int k = 0; k < 20; ++k) {
+        for (const char* letter : {"f(0.5)", "F(1)", "[", "+(30)", "!(0.3)", "G(2)", "g(0.25)", "F(0.5)", "]", "/(40)",
+                                   "F", "f", "&(20)", "F(0.1)"}) {
+            whole += letter;
+            interrupted += std::string(letter) + "?";
+        }
+    }
+    Drawing in_one(whole), piece_by_piece(interrupted);
+    const auto& ones = in_one.geometry().internodes;
+    const auto& others = piece_by_piece.geometry().internodes;
+    REQUIRE(ones.size() == 100);
+    REQUIRE(others.size() == 100);
+    int different = 0;
+    for (std::size_t i = 0; i < ones.size(); ++i) {
+        const Internode &a = ones[i], &b = others[i];
+        different += a.base != b.base || a.tip != b.tip || a.axis != b.axis || a.order != b.order ||
+                     a.base_radius != b.base_radius || a.tip_radius != b.tip_radius || 2 * a.module != b.module;
+    }
+    CHECK(different == 0);
+    CHECK(in_one.pose().position == piece_by_piece.pose().position);
+}
+
 TEST_CASE("internodes taper from the width before them, the first of an axis does not", "[turtle]") {
     Drawing drawing("!(4)F!(2)F[!(1)F!(0.5)F]!(1)F");
     const auto& internodes = drawing.geometry().internodes;

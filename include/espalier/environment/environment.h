@@ -86,10 +86,11 @@ public:
 private:
     /// The questions to one process and its answers, their memory reused from step to step.
     struct Batch {
-        std::span<const Query> queries;  ///< what the process sees
-        QueryColumn copies;              ///< the questions, unless they are read where they were asked
-        Column<double> values;           ///< the answers, one after the other
-        Column<double> sent;             ///< the parameters as the process sees them, if they are rounded
+        std::span<const Query> queries;       ///< what the process sees
+        QueryColumn copies;                   ///< the questions, unless they are read where they were asked
+        std::vector<std::size_t> parameters;  ///< how many each block of queries has; empty: not counted
+        Column<double> values;                ///< the answers, one after the other
+        Column<double> sent;                  ///< the parameters as the process sees them, if they are rounded
         std::vector<Answer> answers;
     };
 
@@ -104,7 +105,6 @@ private:
     bool is_routed(const Query& query) const;
     static void begin_answers(Batch& batch);
     void send(std::size_t process);
-    bool is_sound(const Query& query, std::size_t process) const;
     void throw_unsound(const Query& query, std::size_t process, const PlantView& plant, int step) const;
     void consult(std::size_t process, const WorldView& world);
     void round_answers(std::size_t process);

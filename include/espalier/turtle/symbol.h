@@ -27,6 +27,7 @@ struct Symbol {
         by_action,
         none,
         draw,
+        skip,
         left,
         right,
         down,

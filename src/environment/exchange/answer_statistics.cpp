@@ -10,20 +10,27 @@ void AnswerStatistics::clear() {
 }
 
 void AnswerStatistics::add(std::uint32_t plant, double value) {
-    if (plant >= totals_.size()) totals_.resize(plant + 1);
-    Totals& totals = totals_[plant];
-    totals.least = totals.count == 0 ? value : std::min(totals.least, value);
-    totals.most = totals.count == 0 ? value : std::max(totals.most, value);
-    totals.sum += value;
-    totals.count += 1;
-    totals.ones += value == 1;
+    totals_of(plant).add(value);
 }
 
+// Queries come in the order of the plants. The totals of one stay in registers, and the queries of the last one need
+// not be read.
 void AnswerStatistics::sum_up(std::span<const Query> queries, std::span<const Answer> answers, std::size_t index) {
     clear();
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-        if (index < answers[i].size()) add(queries[i].plant, answers[i][index]);
+    for (std::size_t i = 0; i < queries.size();) {
+        const std::uint32_t plant = queries[i].plant;
+        const bool is_last = plant == queries.back().plant;
+        Totals totals = totals_of(plant);
+        for (; i < queries.size() && (is_last || queries[i].plant == plant); ++i) {
+            if (index < answers[i].size()) totals.add(answers[i][index]);
+        }
+        totals_of(plant) = totals;
     }
+}
+
+AnswerStatistics::Totals& AnswerStatistics::totals_of(std::uint32_t plant) {
+    if (plant >= totals_.size()) totals_.resize(plant + 1);
+    return totals_[plant];
 }
 
 std::vector<Quantity> AnswerStatistics::quantities(std::uint32_t plant) const {

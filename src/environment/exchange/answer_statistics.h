@@ -3,6 +3,7 @@
 
 #include "espalier/environment/environment_process.h"
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -14,7 +15,7 @@ public:
 
     void clear();
     void add(std::uint32_t plant, double value);
-    /// After clear: parameter `index` of every answer that has it.
+    /// After clear: parameter `index` of every answer that has it. Queries in the order of the plants.
     void sum_up(std::span<const Query> queries, std::span<const Answer> answers, std::size_t index = 0);
 
     /// mean, min, max and queries of one plant; but for the queries, NaN where it asked nothing.
@@ -25,7 +26,16 @@ public:
 private:
     struct Totals {
         double sum = 0, count = 0, least = 0, most = 0, ones = 0;
+
+        void add(double value) {
+            least = count == 0 ? value : std::min(least, value);
+            most = count == 0 ? value : std::max(most, value);
+            sum += value;
+            count += 1;
+            ones += value == 1;
+        }
     };
+    Totals& totals_of(std::uint32_t plant);
     Totals of(std::uint32_t plant) const { return plant < totals_.size() ? totals_[plant] : Totals(); }
 
     std::vector<Totals> totals_;

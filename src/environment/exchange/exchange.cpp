@@ -12,6 +12,7 @@
 #include <atomic>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 namespace espalier::environment {
 namespace {
@@ -33,6 +34,14 @@ void for_blocks(std::size_t queries, const Work& work) {
 
 std::string described(const PlantView& plant, int step) {
     return fmt::format("step {}: plant {} (model {})", step, plant.plant, plant.model->name);
+}
+
+// A module may be written by a rule that `require_answers` has not seen, and a NaN may come out of any expression.
+bool is_sound(const Query& query, std::pair<int, int> arity) {
+    const auto given = static_cast<int>(query.parameters.size());
+    bool sound = given >= arity.first && given <= arity.second;
+    for (const double value : query.parameters) sound = sound && std::isfinite(value);
+    return sound;
 }
 
 void write_turtle_answers(const WorldView& world, std::span<ModuleString*> strings) {
@@ -71,6 +80,7 @@ void Environment::gather(const WorldView& world) {
     for (Batch& batch : batches_) {
         batch.copies.clear();
         batch.queries = {};
+        batch.parameters.clear();
     }
     last_model_ = nullptr;
     if (world.waiting || !borrow(world)) {
@@ -115,16 +125,24 @@ bool Environment::borrow(const WorldView& world) {
     name_processes(*only);
     const std::optional<std::size_t> process = process_for(first, *only, world.step);
     if (!process) return false;
+    const std::pair<int, int> arity = arities_[*process];
+    Batch& batch = batches_[*process];
+    batch.parameters.resize(blocks(queries.size()));
     std::atomic<bool> alike = true;
     for_blocks(queries.size(), [&](std::size_t begin, std::size_t end) {
+        std::size_t parameters = 0;
         for (std::size_t i = begin; i < end; ++i) {
             const Query& query = queries[i];
-            if (query.process != first.process || !is_sound(query, *process)) alike = false;
+            if (query.process != first.process || !is_sound(query, arity)) alike = false;
+            parameters += query.parameters.size();
         }
+        batch.parameters[begin / block] = parameters;
     });
-    if (!alike) return false;
-    batches_[*process].queries = queries;
-    return true;
+    if (alike)
+        batch.queries = queries;
+    else
+        batch.parameters.clear();
+    return alike;
 }
 
 // Many plants share a model.
@@ -146,21 +164,22 @@ void Environment::gather(const PlantView& plant, std::span<const Query> queries,
             query.parameters = query.parameters.subspan(1);
             ++query.parameters_at;
         }
-        if (!is_sound(query, *process)) throw_unsound(query, *process, plant, step);
+        if (!is_sound(query, arities_[*process])) throw_unsound(query, *process, plant, step);
     }
 }
 
 // Answers begin as copies of the parameters.
 void Environment::begin_answers(Batch& batch) {
     const std::span<const Query> queries = batch.queries;
-    std::vector<std::size_t> begins(blocks(queries.size()) + 1, 0);
-    for_blocks(queries.size(), [&](std::size_t begin, std::size_t end) {
-        std::size_t parameters = 0;
-        for (std::size_t i = begin; i < end; ++i) parameters += queries[i].parameters.size();
-        begins[begin / block + 1] = parameters;
-    });
-    for (std::size_t i = 1; i < begins.size(); ++i) begins[i] += begins[i - 1];
-    batch.values.resize(begins.back());
+    if (batch.parameters.empty()) {
+        batch.parameters.resize(blocks(queries.size()));
+        for_blocks(queries.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) batch.parameters[begin / block] += queries[i].parameters.size();
+        });
+    }
+    std::vector<std::size_t> begins(batch.parameters.size());
+    std::exclusive_scan(batch.parameters.begin(), batch.parameters.end(), begins.begin(), std::size_t{0});
+    batch.values.resize(std::reduce(batch.parameters.begin(), batch.parameters.end()));
     batch.answers.resize(queries.size());
     for_blocks(queries.size(), [&](std::size_t begin, std::size_t end) {
         double* next = batch.values.data() + begins[begin / block];
@@ -229,15 +248,6 @@ void Environment::send(std::size_t process) {
         }
     });
     batch.queries = batch.copies;
-}
-
-// A module may be written by a rule that `require_answers` has not seen, and a NaN may come out of any expression.
-bool Environment::is_sound(const Query& query, std::size_t process) const {
-    const auto [fewest, most] = arities_[process];
-    const auto given = static_cast<int>(query.parameters.size());
-    bool sound = given >= fewest && given <= most;
-    for (const double value : query.parameters) sound = sound && std::isfinite(value);
-    return sound;
 }
 
 void Environment::throw_unsound(const Query& query, std::size_t process, const PlantView& plant, int step) const {

@@ -21,6 +21,8 @@ PointGrid::PointGrid(std::span<const glm::dvec3> points, std::span<const std::ui
     shift_ = 64 - std::countr_zero(slots);
     table_.assign(slots, none);
     std::vector<std::uint32_t> cell_of_member(members.size()), counts;
+    cells_.reserve(members.size());
+    counts.reserve(members.size());
     StopCheck<4096> check;
     for (std::size_t i = 0; i < members.size(); ++i) {
         check();

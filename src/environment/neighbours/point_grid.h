@@ -17,7 +17,7 @@ namespace espalier::environment {
 /// cell costs memory. Cells are numbered as their first members come; their table is probed linearly.
 class PointGrid {
 public:
-    /// Holds the points whose numbers `members` lists; within a cell they keep its order. Copies the positions.
+    /// Holds the points whose numbers `members` lists; within a cell they keep its order.
     /// Cells are made larger than `edge` where that is too fine for the precision of the coordinates.
     PointGrid(std::span<const glm::dvec3> points, std::span<const std::uint32_t> members, double edge);
 
@@ -45,18 +45,13 @@ public:
     /// within the distance `reach`, whatever is lost in rounding.
     template <class Visit>
     bool visit_around(const glm::dvec3& centre, double reach, const Visit& visit) const {
-        const glm::dvec3 half = glm::dvec3(reach * (1 + 1e-9)) + 1e-15 * glm::abs(centre);
-        const Cell lower = cell_of(glm::clamp(centre - half, least_, most_));
-        const Cell upper = cell_of(glm::clamp(centre + half, least_, most_));
-        if (count(lower, upper) > static_cast<double>(cells_.size())) return visit_all_in(lower, upper, visit);
-        for (std::int64_t x = lower.x; x <= upper.x; ++x) {
-            for (std::int64_t y = lower.y; y <= upper.y; ++y) {
-                for (std::int64_t z = lower.z; z <= upper.z; ++z) {
-                    if (!visit_one({x, y, z}, visit)) return false;
-                }
-            }
-        }
-        return true;
+        return visit_around(centre, reach, nullptr, visit);
+    }
+
+    /// The same without the points of one of the cells.
+    template <class Visit>
+    bool visit_around_but(std::size_t cell, const glm::dvec3& centre, double reach, const Visit& visit) const {
+        return visit_around(centre, reach, &cells_[cell], visit);
     }
 
 private:
@@ -92,6 +87,26 @@ private:
     }
 
     template <class Visit>
+    bool visit_around(const glm::dvec3& centre, double reach, const Cell* left_out, const Visit& visit) const {
+        const glm::dvec3 half = glm::dvec3(reach * (1 + 1e-9)) + 1e-15 * glm::abs(centre);
+        const Cell lower = cell_of(glm::clamp(centre - half, least_, most_));
+        const Cell upper = cell_of(glm::clamp(centre + half, least_, most_));
+        if (count(lower, upper) > static_cast<double>(cells_.size())) {
+            return visit_all_in(lower, upper, left_out, visit);
+        }
+        for (std::int64_t x = lower.x; x <= upper.x; ++x) {
+            for (std::int64_t y = lower.y; y <= upper.y; ++y) {
+                for (std::int64_t z = lower.z; z <= upper.z; ++z) {
+                    const Cell cell{x, y, z};
+                    if (left_out != nullptr && cell == *left_out) continue;
+                    if (!visit_one(cell, visit)) return false;
+                }
+            }
+        }
+        return true;
+    }
+
+    template <class Visit>
     bool visit_members(std::size_t cell, const Visit& visit) const {
         for (std::uint32_t i = ends_[cell]; i < ends_[cell + 1]; ++i) {
             if (!visit(members_[i])) return false;
@@ -107,9 +122,10 @@ private:
     }
 
     template <class Visit>
-    bool visit_all_in(const Cell& lower, const Cell& upper, const Visit& visit) const {
+    bool visit_all_in(const Cell& lower, const Cell& upper, const Cell* left_out, const Visit& visit) const {
         for (std::size_t number = 0; number < cells_.size(); ++number) {
             const Cell& cell = cells_[number];
+            if (&cell == left_out) continue;
             const bool inside = cell.x >= lower.x && cell.x <= upper.x && cell.y >= lower.y && cell.y <= upper.y &&
                                 cell.z >= lower.z && cell.z <= upper.z;
             if (inside && !visit_members(number, visit)) return false;

@@ -13,7 +13,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
+#include <numeric>
 
 namespace espalier::environment {
 namespace {
@@ -23,18 +24,21 @@ public:
     Honda81(Settings& settings, const EnvironmentContext& context, Fields&) : statistics_(context.plants) {
         ParameterFile file(settings, context, {"radius", "3d case"});
         radius_ = file.number("radius", 0, Range::not_negative());
+        near_ = greatest_square(radius_);
         flat_ = !file.flag("3d case", false);
     }
 
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
-        points_.clear();
-        std::map<double, std::vector<std::uint32_t>> groups;
-        for (std::uint32_t i = 0; i < queries.size(); ++i) {
-            const glm::dvec3& place = queries[i].pose.position;
-            points_.emplace_back(place.x, flat_ ? 0 : place.y, place.z);
-            groups[queries[i].parameters.size() > 1 ? queries[i].parameters[1] : 0].push_back(i);
+        read(queries);
+        std::vector<std::uint32_t> tips(queries.size());
+        std::iota(tips.begin(), tips.end(), 0U);
+        const auto less = [&](std::uint32_t a, std::uint32_t b) { return groups_[a] < groups_[b]; };
+        if (!std::is_sorted(tips.begin(), tips.end(), less)) std::stable_sort(tips.begin(), tips.end(), less);
+        for (auto begin = tips.begin(); begin != tips.end();) {
+            const auto end = std::upper_bound(begin, tips.end(), *begin, less);
+            answer_group({begin, end}, answers);
+            begin = end;
         }
-        for (const auto& group : groups) answer_group(queries, group.second, answers);
         statistics_.sum_up(queries, answers);
     }
 
@@ -50,11 +54,38 @@ public:
     }
 
 private:
+    // The greatest number whose root, rounded, is at most `length`.
+    static double greatest_square(double length) {
+        constexpr double most = std::numeric_limits<double>::max();
+        double square = std::min(length * length, most);
+        while (std::sqrt(square) > length) square = std::nextafter(square, 0);
+        while (square < most && std::sqrt(std::nextafter(square, most)) <= length) {
+            square = std::nextafter(square, most);
+        }
+        return square;
+    }
+
+    // Queries are large, and each is compared with several others.
+    void read(std::span<const Query> queries) {
+        points_.resize(queries.size());
+        vigours_.resize(queries.size());
+        groups_.resize(queries.size());
+        for_in_parallel(tbb::blocked_range<std::size_t>(0, queries.size(), 1024), [&](const auto& range) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                const Query& query = queries[i];
+                const glm::dvec3& place = query.pose.position;
+                points_[i] = {place.x, flat_ ? 0 : place.y, place.z};
+                vigours_[i] = query.parameters[0];
+                groups_[i] = query.parameters.size() > 1 ? query.parameters[1] : 0;
+            }
+        });
+    }
+
     // Within a cell the most vigorous come first. Who is near one of them is dominated; the others keep a radius
     // between each other, so that they are few, and only they look around. The time is linear however the points crowd.
-    void answer_group(std::span<const Query> queries, std::span<const std::uint32_t> group, std::span<Answer> answers) {
+    void answer_group(std::span<const std::uint32_t> group, std::span<Answer> answers) const {
         PointGrid grid(points_, group, 2 * radius_);
-        grid.sort_cells([&](std::uint32_t a, std::uint32_t b) { return vigour(queries[a]) > vigour(queries[b]); });
+        grid.sort_cells([&](std::uint32_t a, std::uint32_t b) { return vigours_[a] > vigours_[b]; });
         for_in_parallel(tbb::blocked_range<std::size_t>(0, grid.size(), 256), [&](const auto& cells) {
             std::vector<std::uint32_t> apart;
             for (std::size_t cell = cells.begin(); cell < cells.end(); ++cell) {
@@ -65,24 +96,32 @@ private:
                         apart.push_back(i);
                     }
                 }
-                for (const std::uint32_t i : apart) answers[i][0] = is_free(grid, queries, i) ? 1 : 0;
+                for (const std::uint32_t i : apart) answers[i][0] = is_free(grid, cell, i) ? 1 : 0;
             }
         });
     }
 
-    bool is_free(const PointGrid& grid, std::span<const Query> queries, std::uint32_t i) const {
-        return grid.visit_around(points_[i], radius_, [&](std::uint32_t other) {
-            return other == i || vigour(queries[other]) < vigour(queries[i]) || !is_near(i, other);
-        });
+    // Most cells around it are empty, which a processor foresees if its own, known already, is not among them.
+    bool is_free(const PointGrid& grid, std::size_t cell, std::uint32_t i) const {
+        const auto leaves_free = [&](std::uint32_t other) {
+            return (other == i) | (vigours_[other] < vigours_[i]) | !is_near(i, other);
+        };
+        const std::span<const std::uint32_t> beside = grid.members(cell);
+        return std::all_of(beside.begin(), beside.end(), leaves_free) &&
+               grid.visit_around_but(cell, points_[i], radius_, leaves_free);
     }
 
-    bool is_near(std::uint32_t a, std::uint32_t b) const { return glm::distance(points_[a], points_[b]) <= radius_; }
-
-    static double vigour(const Query& query) { return query.parameters[0]; }
+    bool is_near(std::uint32_t a, std::uint32_t b) const {
+        const glm::dvec3 between = points_[a] - points_[b];
+        return glm::dot(between, between) <= near_;
+    }
 
     double radius_;
+    double near_;  ///< square of a distance: what is more is too far
     bool flat_;
+    // Of each query:
     std::vector<glm::dvec3> points_;
+    std::vector<double> vigours_, groups_;
     AnswerStatistics statistics_;
 };
 

@@ -31,8 +31,8 @@ void Derivation::State::evaluate_axiom(ModuleString& string) {
     const std::size_t parameters = compiled.axiom.results.size();
     const Extent extent{compiled.axiom_letters.size(), parameters, 1};
     const std::size_t bytes = bytes_needed(extent, lineage);
-    if (bytes > settings.memory) {
-        throw RunError(fmt::format("the axiom takes {} bytes, more than the memory of {}", bytes, settings.memory));
+    if (bytes > memory) {
+        throw RunError(fmt::format("the axiom takes {} bytes, more than the memory of {}", bytes, memory));
     }
     resize(string, extent, lineage);
     std::copy(compiled.axiom_letters.begin(), compiled.axiom_letters.end(), string.letters.begin());
@@ -78,7 +78,7 @@ void Derivation::step(const ModuleString& from, ModuleString& to) {
 }
 
 void Derivation::State::rewrite(const ModuleString& from, ModuleString& to) {
-    if (may_be_simple && lineage && rewrite_small(main, from, step, settings.memory, to)) return;
+    if (may_be_simple && lineage && rewrite_small(main, from, step, memory, to)) return;
     const ScratchLease lease(from.size(), own_scratch);
     scratch = &lease.scratch();
     const StepInput input = prepare(from);
@@ -159,7 +159,7 @@ StepInput Derivation::State::prepare(const ModuleString& from) {
     StringView view{&from};
     find_contexts(from, view);
     const RandomKey random = model->samples ? key(Stream::derivation) : RandomKey();
-    return {main, from, view, random, step, lineage, settings.memory, scratch->kept};
+    return {main, from, view, random, step, lineage, memory, scratch->kept};
 }
 
 // --- What others ask of a derivation --------------------------------------------------------------------------------
@@ -174,10 +174,9 @@ Derivation& Derivation::operator=(Derivation&&) noexcept = default;
 // What a step of a small string touches.
 void Derivation::prefetch() const {
     const State& state = *state_;
-    constexpr std::size_t head = 96;  // up to the variables
-    espalier::prefetch(&state, head);
-    espalier::prefetch(&state.services.stopped, sizeof(bool));
-    espalier::prefetch(&state.settings.memory, sizeof(std::size_t));
+    const auto* const begin = reinterpret_cast<const char*>(&state.services.stopped);
+    const auto* const end = reinterpret_cast<const char*>(&state.variables.globals + 1);
+    espalier::prefetch(begin, static_cast<std::size_t>(end - begin));
 }
 
 // What lasts, and what a step needs besides; what small strings need is their thread's.
@@ -197,7 +196,7 @@ std::size_t Derivation::working_memory(const ModuleString& string) const {
 }
 
 void Derivation::set_memory(std::size_t bytes) {
-    state_->settings.memory = bytes;
+    state_->memory = bytes;
 }
 
 void Derivation::set_lineage(bool kept) {

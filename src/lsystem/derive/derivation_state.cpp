@@ -25,6 +25,7 @@ Derivation::State::State(std::shared_ptr<const CompiledModel> compiled, Derivati
       in_order(given.one_by_one || model->nested || main.serial()),
       may_be_simple(!in_order && main.decomposition.empty() && !model->uses_context && !main.may_cut),
       lineage(keeps_lineage(given.lineage)),
+      memory(given.memory),
       settings(std::move(given)),
       files(settings.input_folder, settings.output_folder),
       block_machine(main.machine()),
@@ -37,7 +38,7 @@ Derivation::State::State(std::shared_ptr<const CompiledModel> compiled, Derivati
     services.seed = settings.seed;
     services.plant = settings.plant;
     block_machine.attach(&variables, &services, Stream::blocks);
-    require_arrays(main, 1, settings.memory);
+    require_arrays(main, 1, memory);
     reset();
     if (!main.length.reads_variables()) {
         evaluate_length();
@@ -138,7 +139,7 @@ std::size_t Derivation::State::lasting_memory() const {
 
 void Derivation::State::begin_memory() {
     sub_systems.begin_step();
-    files.leave(settings.memory);
+    files.leave(memory);
 }
 
 void Derivation::State::warn_of_depth() {

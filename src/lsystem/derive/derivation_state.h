@@ -45,7 +45,9 @@ struct Derivation::State {
     void begin_memory();
     void warn_once(const Place& place, const std::string& message);
 
-    // What every step touches stands together: of ten thousand small plants each line of memory counts.
+    // What every step touches stands together, from the end of the services to the beginning of the variables: of ten
+    // thousand small plants each line of memory counts.
+    Services services;
     std::shared_ptr<const CompiledModel> model;
     const CompiledSystem& main;
     Machines machines;
@@ -61,8 +63,8 @@ struct Derivation::State {
     /// Grows with every change of variables, so that writers of pictures know what they have seen.
     std::uint64_t generation = 0;
     Scratch* scratch = nullptr;  ///< lent for the step at hand
+    std::size_t memory;          ///< bytes that the plant may take
     Variables variables;
-    Services services;
     DerivationSettings settings;
 
     ModelFiles files;

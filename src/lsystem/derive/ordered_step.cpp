@@ -101,7 +101,7 @@ void OrderedStep::enter(std::uint32_t scope) {
     const Scope& entered = scopes_.all()[scope];
     if (entered.cut) return;
     const bool first = !state_.sub_systems.find(entered);
-    if (first) state_.sub_systems.make(entered, state_.settings.memory);
+    if (first) state_.sub_systems.make(entered, state_.memory);
     variables_[scope] = lent(scope);
     if (first) run_block(scope, entered.system->start, "Start");
     run_block(scope, entered.system->start_each, "StartEach");

@@ -51,7 +51,7 @@ void PictureWriter::prepare(const CompiledSystem& system, Variables& variables, 
 /// A homomorphism that multiplies at every depth is caught before it has eaten the machine.
 void PictureWriter::require_bounds(const ModuleString& picture, const CompiledProduction& production) const {
     if (picture.size() % modules_between_looks != 0) return;
-    if (picture.size() < most_modules && picture.bytes() <= state_->settings.memory) return;
+    if (picture.size() < most_modules && picture.bytes() <= state_->memory) return;
     throw RunError(
         fmt::format("{}: the picture of one module grows beyond {} modules; look at the maximum depth of "
                     "the homomorphism",

@@ -35,15 +35,15 @@ struct Variables {
 
 /// What programs may ask of the derivation they run in.
 struct Services {
-    std::uint64_t seed = 0;
-    std::uint32_t plant = 0;
-    bool stopped = false;
-    std::uint64_t salt = 0;  ///< what srand() or `seed:` last said
     std::function<void(const std::string&)> print;
     /// Says once for each place what is wrong there, though the run goes on.
     std::function<void(const Place&, const std::string&)> warn;
     const Resources* resources = nullptr;  ///< null: no side files
     ModelFiles* files = nullptr;
+    std::uint64_t salt = 0;  ///< what srand() or `seed:` last said
+    std::uint64_t seed = 0;
+    std::uint32_t plant = 0;
+    bool stopped = false;
 };
 
 class Machine {

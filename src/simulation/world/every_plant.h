@@ -5,7 +5,6 @@
 #include "espalier/base/read_log.h"
 
 #include "base/parallel.h"
-#include "base/prefetch.h"
 #include "simulation/world/growing_plant.h"
 
 #include <fmt/format.h>
@@ -48,25 +47,30 @@ private:
 
 using PrefetchPlant = void (GrowingPlant::*)() const;
 
+/// What a stage reads of a plant: its values, then the columns in them.
+struct StagePrefetch {
+    PrefetchPlant values, columns;
+};
+
 /// Hints that the stage will soon come to the plants after this one. Many small plants take half the time with them:
 /// without, each would wait for its lines of memory one by one.
-inline void prefetch_ahead(std::span<const GrowingPlant> plants, PrefetchPlant prefetch_columns) {
-    if (plants.size() > 6) prefetch(&plants[6], sizeof(GrowingPlant));
-    if (plants.size() > 4) plants[4].prefetch_values();
-    if (plants.size() > 2) (plants[2].*prefetch_columns)();
+inline void prefetch_ahead(std::span<const GrowingPlant> plants, const StagePrefetch& stage) {
+    if (plants.size() > 6) plants[6].prefetch_itself();
+    if (plants.size() > 4) (plants[4].*stage.values)();
+    if (plants.size() > 2) (plants[2].*stage.columns)();
 }
 
 /// A stage gets a string, too, whose memory the plants of a thread pass on to each other. `is_alone`: the world has one
 /// plant. `reads` notes the files that models read; may be null.
 template <class Stage>
-void for_every_plant(std::span<GrowingPlant> plants, bool is_alone, ReadLog* reads, PrefetchPlant prefetch_columns,
+void for_every_plant(std::span<GrowingPlant> plants, bool is_alone, ReadLog* reads, const StagePrefetch& prefetch,
                      const Stage& stage) {
     FirstFailure failure(plants.size());
     for_in_parallel(tbb::blocked_range<std::size_t>(0, plants.size()), [&](const auto& range) {
         const ReadLog::Scope scope(reads);
         ModuleString spare;
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            prefetch_ahead(plants.subspan(i, range.end() - i), prefetch_columns);
+            prefetch_ahead(plants.subspan(i, range.end() - i), prefetch);
             try {
                 stage(plants[i], spare);
             } catch (...) {

@@ -5,6 +5,7 @@
 #include "simulation/scene/scene_keyframes.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace espalier::simulation {
@@ -26,15 +27,14 @@ void round_as_stored(ModuleString& string, Arithmetic arithmetic) {
 
 GrowingPlant::GrowingPlant(std::uint32_t plant, const Plant& from, std::shared_ptr<const SymbolTable> symbols,
                            const DerivationSettings& settings)
-    : number(plant),
-      description(&from),
+    : description(&from),
       derivation(from.model, settings),
-      settings_(settings),
+      number(plant),
+      is_plain_(!derivation.has_homomorphism() && from.stages.empty() && !from.in_time && !from.drawing_in_time),
       model_(&source_of(*from.model)),
-      insertions_(from),
       symbols_(std::move(symbols)),
-      stage_key_(settings.seed, settings.plant, Stream::stage),
-      has_pictures_(derivation.has_homomorphism()) {
+      insertions_(from),
+      settings_(settings) {
     note_derived();
 }
 
@@ -85,7 +85,7 @@ void GrowingPlant::write_axiom(ModuleString* spare) {
 }
 
 void GrowingPlant::derive(ModuleString* spare) {
-    if (!description->in_time) {
+    if (is_plain_ || !description->in_time) {
         return rewrite([&](const ModuleString& from, ModuleString& to) { derivation.step(from, to); }, spare);
     }
     rewrite(
@@ -103,7 +103,7 @@ void GrowingPlant::derive(ModuleString* spare) {
 
 // The seed and the steps are those of every other time, so that an organ keeps its identity and its random numbers.
 void GrowingPlant::regrow(ModuleString& to) {
-    regrown_.emplace(description->in_time->at_step(derivation.steps_done()), settings_);
+    regrown_ = std::make_unique<Derivation>(description->in_time->at_step(derivation.steps_done()), settings_);
     regrown_->set_lineage(true);
     ModuleString from;
     regrown_->start(to);
@@ -133,29 +133,40 @@ void GrowingPlant::rewrite(const Rewrite& rewrite, ModuleString* spare) {
 
 void GrowingPlant::interpret(const FieldValues& fields, double time) {
     Interpretation& result = interpretation.for_writing();
-    const Derivation* pictures = has_pictures_ ? &drawing() : nullptr;
+    const Derivation* pictures = !is_plain_ && derivation.has_homomorphism() ? &drawing() : nullptr;
+    const bool changes = !is_plain_ && description->drawing_in_time;
     const std::shared_ptr<const Drawing> now =
-        description->drawing_in_time ? description->drawing_in_time->at_step(derivation.steps_done()) : nullptr;
-    TurtleSettings turtle_now;
+        changes ? description->drawing_in_time->at_step(derivation.steps_done()) : nullptr;
+    std::optional<TurtleSettings> turtle_now;
     if (now) {
         turtle_now = now->turtle;
-        turtle_now.pose = description->turtle.pose;
+        turtle_now->pose = description->turtle.pose;
     }
-    espalier::interpret(model(), *symbols_, *string, now ? turtle_now : description->turtle, pictures,
+    espalier::interpret(model(), *symbols_, *string, turtle_now ? *turtle_now : description->turtle, pictures,
                         {number, &fields}, result);
     asks_ = result.asks();
-    if (description->stages.empty()) return;
+    if (is_plain_ || description->stages.empty()) return;
     Interpretation& staged = staged_.for_writing();
     staged = result;
-    StagedPlant plant{staged.geometry, *string, stage_key_, description->turtle.pose.heading, time};
+    const RandomKey key(settings_.seed, settings_.plant, Stream::stage);
+    StagedPlant plant{staged.geometry, *string, key, description->turtle.pose.heading, time};
     apply(now ? now->stages : description->stages, plant);
     is_staged_ = true;
+}
+
+void GrowingPlant::prefetch_itself() const {
+    constexpr std::size_t often_read = 4 * 64;
+    prefetch(this, often_read);
+}
+
+void GrowingPlant::prefetch_string() const {
+    prefetch(&*string, sizeof(ModuleString));
 }
 
 void GrowingPlant::prefetch_values() const {
     prefetch(&*string, sizeof(ModuleString));
     prefetch(&*interpretation, sizeof(Interpretation));
-    prefetch(description, sizeof(Plant));
+    prefetch(&description->turtle, sizeof(TurtleSettings));
 }
 
 void GrowingPlant::prefetch_for_derivation() const {

@@ -14,7 +14,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace espalier::simulation {
@@ -23,7 +22,10 @@ namespace espalier::simulation {
 void round_as_stored(ModuleString& string, Arithmetic arithmetic);
 
 /// What a Plant of the scene has become: its derivation, and its values of the current step.
-class GrowingPlant {
+///
+/// Of ten thousand small plants each line of memory counts: what every step reads stands in the first four, what is
+/// read of all plants, one after the other, in the first.
+class alignas(64) GrowingPlant {
 public:
     GrowingPlant(std::uint32_t number, const Plant& description, std::shared_ptr<const SymbolTable> symbols,
                  const DerivationSettings& settings);
@@ -38,7 +40,9 @@ public:
     /// After its string and its derivation were restored from a checkpoint.
     void note_derived();
 
-    // Hints that a stage will soon come to this plant: of its values first, then of the columns in them.
+    // Hints that a stage will soon come to this plant: of itself, then of its values, then of the columns in them.
+    void prefetch_itself() const;
+    void prefetch_string() const;
     void prefetch_values() const;
     void prefetch_for_derivation() const;
     void prefetch_for_interpretation() const;
@@ -46,6 +50,8 @@ public:
     const Model& model() const { return *model_; }
     /// The string of the step before; null if its memory was passed on.
     const ModuleString* string_before() const { return keeps_previous_ ? &*previous_ : nullptr; }
+    /// The turtle or a process, in this step.
+    bool asks() const { return asks_; }
     PlantView view() const { return {number, &model(), &*string, &*interpretation, asks_, &drawn().geometry}; }
     /// After `string` and `interpretation` came from the rank that holds the plant.
     void note_received();
@@ -55,19 +61,22 @@ public:
     void hold(std::shared_ptr<const ModuleString> string, std::shared_ptr<const Interpretation> interpretation);
     PlantFrame frame(std::vector<Quantity> quantities) const;
 
-    std::uint32_t number;
-    const Plant* description;
-    Derivation derivation;
+    PlantMemory memory;
     // As derivation leaves them: to look them up elsewhere would cost much of a small plant's step.
-    std::size_t modules = 0, modules_before = 0;
+    std::size_t modules = 0;
     int length = 0;
     bool stopped = false;
     bool is_here = true;  ///< false: another rank holds it, and what it sent of the plant is all there is
+    const Plant* description;
+    Derivation derivation;
+    std::size_t modules_before = 0;
     Reusable<ModuleString> string;
     Reusable<Interpretation> interpretation;
+    std::uint32_t number;
     /// For light and recorders: the interpretation as the geometry stages leave it.
     const Interpretation& drawn() const { return *shown(); }
-    PlantMemory memory;
+    /// Geometry stages changed what is drawn of this step.
+    bool is_staged() const { return is_staged_; }
 
 private:
     void regrow(ModuleString& to);
@@ -76,18 +85,19 @@ private:
     template <class Rewrite>
     void rewrite(const Rewrite& rewrite, ModuleString* spare);
 
-    DerivationSettings settings_;
-    const Model* model_;
-    std::optional<Derivation> regrown_;  ///< derivation of a plant that grows anew in every step
-    Insertions insertions_;
-    std::shared_ptr<const SymbolTable> symbols_;
-    Reusable<ModuleString> previous_;  // the string of the step before; the next one is written in its memory
-    bool keeps_previous_ = false;
-    Reusable<Interpretation> staged_;
-    RandomKey stage_key_;
-    bool has_pictures_;
     bool asks_ = false;
     bool is_staged_ = false;  ///< what is drawn of this step is in staged_
+    /// Without pictures and stages, and nothing of it changes with time: most of its description is never read.
+    bool is_plain_;
+    bool keeps_previous_ = false;
+    const Model* model_;
+    std::shared_ptr<const SymbolTable> symbols_;
+    Insertions insertions_;
+
+    Reusable<ModuleString> previous_;  // the string of the step before; the next one is written in its memory
+    Reusable<Interpretation> staged_;
+    DerivationSettings settings_;
+    std::unique_ptr<Derivation> regrown_;  ///< derivation of a plant that grows anew in every step
 };
 
 }  // namespace espalier::simulation

@@ -64,7 +64,7 @@ void MemoryBudget::check_strings(std::span<const GrowingPlant> plants, int step)
 void MemoryBudget::count_drawn(GrowingPlant& plant, int step, bool many_plants) const {
     const std::size_t before = plant.memory.drawn;
     plant.memory.set_drawn(*plant.interpretation, many_plants);
-    if (!plant.description->stages.empty()) plant.memory.add_staged(plant.drawn());
+    if (plant.is_staged()) plant.memory.add_staged(plant.drawn());
     if (recorders_.empty()) return;
     RecordedMemory recorded;
     for (const Recorder* recorder : recorders_) {

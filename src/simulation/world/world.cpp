@@ -8,7 +8,6 @@
 #include "simulation/spread/plant_bytes.h"
 #include "simulation/world/every_plant.h"
 #include "simulation/world/world_state.h"
-#include "turtle/asking.h"
 
 #include <fmt/format.h>
 
@@ -107,7 +106,8 @@ void World::State::rewrite(std::span<GrowingPlant> some, Stage stage) {
     if (spread) spread->forget(plants);
     all_do([&] {
         const Stopwatch busy_time(busy);
-        for_every_plant(some, plants.size() == 1, reads, &GrowingPlant::prefetch_for_derivation,
+        for_every_plant(some, plants.size() == 1, reads,
+                        {&GrowingPlant::prefetch_string, &GrowingPlant::prefetch_for_derivation},
                         [&](GrowingPlant& plant, ModuleString& spare) {
                             if (!plant.is_here || !memory.has_room()) return;
                             memory.limit_strings(plant);
@@ -147,7 +147,8 @@ void World::State::interpret(std::span<GrowingPlant> some) {
     all_do([&] {
         const Stopwatch busy_time(busy);
         take_fields();
-        for_every_plant(some, plants.size() == 1, reads, &GrowingPlant::prefetch_for_interpretation,
+        for_every_plant(some, plants.size() == 1, reads,
+                        {&GrowingPlant::prefetch_values, &GrowingPlant::prefetch_for_interpretation},
                         [&](GrowingPlant& plant, ModuleString&) {
                             if (!plant.is_here) return;
                             plant.interpret(fields, time());
@@ -160,7 +161,8 @@ void World::State::interpret(std::span<GrowingPlant> some) {
 
 template <class Action>
 void World::State::for_waiting(std::span<GrowingPlant> some, const Action& action) {
-    for_every_plant(some, plants.size() == 1, reads, &GrowingPlant::prefetch_values,
+    for_every_plant(some, plants.size() == 1, reads,
+                    {&GrowingPlant::prefetch_values, &GrowingPlant::prefetch_for_interpretation},
                     [&](GrowingPlant& plant, ModuleString&) { action(plant); });
 }
 
@@ -205,6 +207,7 @@ void World::exchange() {
 }
 
 void World::State::exchange() {
+    if (!exchanges) return;
     std::vector<PlantView> views;
     std::vector<ModuleString*> strings;
     views.reserve(plants.size());
@@ -228,8 +231,7 @@ void World::answer_turtle_queries() {
 // Answers are kept as all parameters are.
 void World::State::store_answers() {
     for (GrowingPlant& plant : plants) {
-        const PlantView view = plant.view();
-        if (view.asks) round_as_stored(*plant.string, view.model->arithmetic);
+        if (plant.asks()) round_as_stored(*plant.string, plant.model().arithmetic);
     }
 }
 
@@ -263,9 +265,7 @@ void World::attach_for_pieces(Recorder& recorder) {
 
 void World::skip_geometry() {
     State& state = *state_;
-    const bool asks = std::any_of(state.plants.begin(), state.plants.end(),
-                                  [](const GrowingPlant& plant) { return has_queries(plant.model().alphabet); });
-    state.is_seen = asks || !state.scene.environment.processes.empty();
+    state.is_seen = state.exchanges;
     for (GrowingPlant& plant : state.plants) plant.derivation.set_lineage(state.is_seen);
 }
 

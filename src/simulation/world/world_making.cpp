@@ -2,6 +2,7 @@
 #include "simulation/scene/expressions.h"
 #include "simulation/scene/scene_keyframes.h"
 #include "simulation/world/world_state.h"
+#include "turtle/asking.h"
 
 #include <fmt/format.h>
 
@@ -95,12 +96,16 @@ void World::State::make_environment() {
 void World::State::make_plants(const std::filesystem::path& files) {
     std::map<const CompiledModel*, std::shared_ptr<const SymbolTable>> symbols;
     plants.reserve(scene.plants.size());
+    exchanges = environment->size() > 0;
     std::size_t held = 0;  // by arrays of the plants so far
     for (const Plant& plant : scene.plants) {
         const Model& model = source_of(*plant.model);
         environment->require_answers(model, plant.name);
         std::shared_ptr<const SymbolTable>& table = symbols[plant.model.get()];
-        if (!table) table = symbol_table(model);
+        if (!table) {
+            table = symbol_table(model);
+            exchanges = exchanges || has_queries(model.alphabet);
+        }
         const auto number = static_cast<std::uint32_t>(plants.size());
         DerivationSettings settings = derivation_settings(plant, files);
         settings.memory -= held;

@@ -91,6 +91,7 @@ struct World::State {
     Scene scene;
     std::size_t budget;  ///< bytes for plants and fields
     MemoryBudget memory;
+    bool exchanges = false;  ///< a process is there, or a model may ask the turtle
     bool is_seen = true;
     ReadLog* reads = ReadLog::current();  ///< log of the thread that makes the world
     std::vector<GrowingPlant> plants;

@@ -28,13 +28,17 @@ const Registered<Symbol> skip{
     {"f",
      {},
      "f(length): move forward without drawing; marks a polygon vertex",
-     [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), false, true); }}};
+     [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), false, true); },
+     Symbol::Effect::other,
+     Symbol::Step::skip}};
 
 const Registered<Symbol> skip_unmarked{
     {"g",
      {},
      "g(length): move forward without drawing, marking no vertex",
-     [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), false, false); }}};
+     [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), false, false); },
+     Symbol::Effect::other,
+     Symbol::Step::skip}};
 
 const Registered<SymbolGroup> movement_group{
     {"movement",

@@ -69,7 +69,8 @@ std::size_t StringWalk::next_action(std::size_t begin, std::size_t end) const {
     const LetterMeaning* const meanings = symbols_->levels[0].data();
     for (std::size_t i = begin; i < end; ++i) {
         const Symbol::Step step = meanings[string_->letters[i]].step;
-        if (step == Symbol::Step::by_action || (step == Symbol::Step::draw && !draws_plainly())) return i;
+        const bool moves = step == Symbol::Step::draw || step == Symbol::Step::skip;
+        if (step == Symbol::Step::by_action || (moves && !draws_plainly())) return i;
     }
     return end;
 }
@@ -161,6 +162,8 @@ public:
                 return true;
             case draw:
                 return draw_segment(module, parameters.empty() ? 1 : parameters[0]);
+            case skip:
+                return skip_segment(parameters.empty() ? 1 : parameters[0]);
             case left:
                 rotate_pair(heading_, left_, walk_.rotation(parameters));
                 return true;
@@ -228,13 +231,24 @@ private:
         turtle.branches_off = branches_off_;
         turtle.has_width = has_width_;
     }
+    [[gnu::always_inline]] bool move(double length) {
+        if (!draws_plainly_ || walk_.turtle().elasticity != 0) return false;
+        const Triple tip = position_ + heading_ * (length * scale_);
+        if (!std::isfinite(tip.x + tip.y + tip.z)) return false;
+        position_ = tip;
+        return true;
+    }
+    [[gnu::always_inline]] bool skip_segment(double length) {
+        if (!move(length)) return false;
+        on_axis_ = false;
+        return true;
+    }
     [[gnu::always_inline]] bool draw_segment(std::size_t module, double length) {
         const TurtleState& rest = walk_.turtle();
-        if (!draws_plainly_ || rest.elasticity != 0 || rest.cylinder >= 0 || rest.texture != 0) return false;
+        if (rest.cylinder >= 0 || rest.texture != 0 || walk_.internodes_.full()) return false;
         const Triple base = position_;
-        const Triple tip = base + heading_ * (length * scale_);
-        if (!std::isfinite(tip.x + tip.y + tip.z) || walk_.internodes_.full()) return false;
-        position_ = tip;
+        if (!move(length)) return false;
+        const Triple tip = position_;
         const bool continues = on_axis_ && tapers_;
         const double tip_radius = has_width_ ? walk_.radius_of_width_ * width_ : 0;
         const double base_radius = continues ? node_radius_ : tip_radius;

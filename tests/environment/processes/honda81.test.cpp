@@ -157,6 +157,24 @@ TEST_CASE("the search for dominating branches finds what comparing every pair fi
     }
 }
 
+TEST_CASE("at the radius the distance decides as it is rounded", "[honda81]") {
+    constexpr double radius = 0.7;
+    std::vector<Asked> pairs;
+    for (int k = 0; k < 500; ++k) {
+        pairs.push_back({{0, 0, 0}, {1, double(k)}});
+        pairs.push_back({{radius * std::cos(k), 0, radius * std::sin(k)}, {1, double(k)}});
+    }
+    const std::vector<double> answered = answers_of_honda81("radius = 0.7", pairs);
+    int wrong = 0, near = 0;
+    for (std::size_t i = 0; i < pairs.size(); i += 2) {
+        wrong += answered[2 * i] != by_definition(pairs, i, radius, true);
+        near += answered[2 * i] == 0;
+    }
+    CHECK(wrong == 0);
+    CHECK(near > 250);
+    CHECK(near < 500);
+}
+
 TEST_CASE("the order of the queries and the number of threads change no collision", "[honda81]") {
     std::vector<Asked> questions = random_questions(5000, 20, 30);
     const std::vector<double> first = answers_of_honda81("radius = 0.6\n3d_case = true", questions);
