@@ -12,5 +12,5 @@ if(ESPALIER_FUZZ)
   target_compile_definitions(espalier_options INTERFACE FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION)
   target_link_options(espalier_options INTERFACE -fsanitize=address,undefined)
   # The fuzzer has nothing to learn from how far an unknown word is from each known one; counting that took half of its time.
-  set_source_files_properties(src/base/text.cpp PROPERTIES COMPILE_OPTIONS -fno-sanitize=fuzzer-no-link)
+  compile_with(-fno-sanitize=fuzzer-no-link src/base/text.cpp)
 endif()

@@ -11,7 +11,12 @@ function(add_objects name)
   add_library(${name} OBJECT ${ARGN})
   target_include_directories(${name} PRIVATE src)
   target_link_libraries(${name} PUBLIC espalier_options)
+  precompile_headers(${name} espalier_headers)
 endfunction()
+if(precompile)
+  file(CONFIGURE OUTPUT headers.cpp CONTENT "")
+  add_objects(espalier_headers ${PROJECT_BINARY_DIR}/headers.cpp)
+endif()
 
 # Lists it in GROW_STATIONS or LOOK_STATIONS, and what needs OpenVDB in GRID_STATIONS.
 function(add_station station)

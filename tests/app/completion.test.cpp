@@ -38,54 +38,68 @@ struct Help {
     std::set<std::string> options;
 };
 
-/// By command.
-std::map<std::string, Help> help_of_commands(const Workplace& place) {
-    std::map<std::string, Help> helps;
-    for (const std::string& command : commands_of(place.run("--help").out)) {
-        const std::string text = place.run(command + " --help").out;
-        helps[command] = {text, options_of(text)};
-    }
-    return helps;
+/// By command. The program is asked once.
+const std::map<std::string, Help>& help_of_commands() {
+    static const std::map<std::string, Help> all = [] {
+        const Workplace place;
+        std::map<std::string, Help> helps;
+        for (const std::string& command : commands_of(place.run("--help").out)) {
+            const std::string text = place.run(command + " --help").out;
+            helps[command] = {text, options_of(text)};
+        }
+        return helps;
+    }();
+    return all;
 }
 
 bool is_installed(const std::string& program) {
     return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-/// What bash offers for the last of these words.
-std::set<std::string> bash_offers(const Workplace& place, const std::string& words) {
-    place.write("offer",
-                "source ./script\nCOMP_WORDS=(" + words +
-                    ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_espalier\nprintf '%s\\n' \"${COMPREPLY[@]}\"\n");
-    REQUIRE(place.run("completion bash >script && bash ./offer >offers").code == 0);
-    std::istringstream lines(text_of(place.path() / "offers"));
-    std::set<std::string> offers;
-    for (std::string line; std::getline(lines, line);) offers.insert(line);
-    return offers;
-}
+/// A place with the script that the program writes for bash.
+class BashPlace {
+public:
+    BashPlace() { REQUIRE(place_.run("completion bash >script").code == 0); }
+
+    /// What bash offers for the last of these words.
+    std::set<std::string> offers(const std::string& words) const {
+        place_.write("offer",
+                     "source ./script\nCOMP_WORDS=(" + words +
+                         ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_espalier\nprintf '%s\\n' \"${COMPREPLY[@]}\"\n");
+        const std::string ask = "cd '" + place_.path().string() + "' && bash ./offer >offers";
+        REQUIRE(std::system(ask.c_str()) == 0);
+        std::istringstream lines(text_of(place_.path() / "offers"));
+        std::set<std::string> offers;
+        for (std::string line; std::getline(lines, line);) offers.insert(line);
+        return offers;
+    }
+
+private:
+    Workplace place_;
+};
 
 }  // namespace
 
 TEST_CASE("bash completes every command and every option of each", "[app][completion]") {
-    const Workplace place;
-    const auto commands = help_of_commands(place);
+    const BashPlace bash;
+    const auto& commands = help_of_commands();
     REQUIRE(commands.size() >= 20);
-    std::set<std::string> offered = bash_offers(place, "espalier ''");
+    const std::set<std::string> offered = bash.offers("espalier ''");
     for (const auto& [command, help] : commands) {
         INFO(command);
         CHECK(offered.contains(command));
         REQUIRE(!help.options.empty());
-        CHECK(bash_offers(place, "espalier " + command + " --") == help.options);
+        CHECK(bash.offers("espalier " + command + " --") == help.options);
     }
     CHECK(!offered.contains("man"));
 }
 
 TEST_CASE("bash completes beginnings, words that an option accepts, and else names of files", "[app][completion]") {
-    const Workplace place;
-    CHECK(bash_offers(place, "espalier ren") == std::set<std::string>{"render"});
-    CHECK(bash_offers(place, "espalier run --over") == std::set<std::string>{"--overwrite"});
-    CHECK(bash_offers(place, "espalier run --arithmetic ''") == std::set<std::string>{"double", "cpfg"});
-    CHECK(bash_offers(place, "espalier run --output ''") == std::set<std::string>{""});
+    const BashPlace bash;
+    CHECK(bash.offers("espalier ren") == std::set<std::string>{"render"});
+    CHECK(bash.offers("espalier run --over") == std::set<std::string>{"--overwrite"});
+    CHECK(bash.offers("espalier run --arithmetic ''") == std::set<std::string>{"double", "cpfg"});
+    CHECK(bash.offers("espalier run --output ''") == std::set<std::string>{""});
 }
 
 TEST_CASE("zsh and fish are told of every command and option, in scripts that they can read", "[app][completion]") {
@@ -93,7 +107,7 @@ TEST_CASE("zsh and fish are told of every command and option, in scripts that th
     for (const std::string shell : {"zsh", "fish"}) {
         const Outcome script = place.run("completion " + shell);
         REQUIRE(script.code == 0);
-        for (const auto& [command, help] : help_of_commands(place)) {
+        for (const auto& [command, help] : help_of_commands()) {
             CHECK_THAT(script.out, Contains(shell == "zsh" ? "'" + command + ":" : "-a " + command + " "));
             for (const std::string& option : help.options) {
                 INFO(shell << ": " << command << " " << option);
@@ -119,7 +133,7 @@ TEST_CASE("Each command has a man page with its options and examples", "[app][co
     const Workplace place;
     REQUIRE(place.run("man pages").code == 0);
     const std::string all = text_of(place.path() / "pages/espalier.1");
-    for (const auto& [command, help] : help_of_commands(place)) {
+    for (const auto& [command, help] : help_of_commands()) {
         const std::string name = std::regex_replace(command, std::regex("-"), "\\-");
         CHECK_THAT(all, Contains(".BR espalier\\-" + name + " (1)"));
         const std::string page = text_of(place.path() / ("pages/espalier-" + command + ".1"));

@@ -5,7 +5,6 @@
 #include "espalier/base/math.h"
 #include "espalier/environment/environment_process.h"
 #include "espalier/environment/shape.h"
-#include "espalier/geometry/openvdb_grid.h"
 
 #include "base/bytes.h"
 #include "base/parallel.h"
@@ -13,12 +12,14 @@
 #include "environment/shade/leaf_area.h"
 #include "environment/shade/sky_directions.h"
 #include "environment/sky/daylight.h"
+#include "geometry/grids/voxel_values.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -26,6 +27,15 @@
 
 namespace espalier::environment {
 namespace {
+
+using Voxel = std::array<int, 3>;
+
+struct VoxelHash {
+    std::size_t operator()(const Voxel& voxel) const {
+        const auto part = [&](int axis) { return static_cast<std::size_t>(voxel[axis]); };
+        return part(0) * 73856093 ^ part(1) * 19349669 ^ part(2) * 83492791;
+    }
+};
 
 /// Where vines may grow.
 struct VineRoom {
@@ -41,11 +51,11 @@ struct VineRoom {
         ground = settings.number_or("ground", 0);
     }
 
-    openvdb::Coord voxel_of(const glm::dvec3& place) const {
+    Voxel voxel_of(const glm::dvec3& place) const {
         const glm::dvec3 at = glm::floor(place / voxel);
         return {static_cast<int>(at.x), static_cast<int>(at.y), static_cast<int>(at.z)};
     }
-    glm::dvec3 centre_of(const openvdb::Coord& at) const { return voxel * (glm::dvec3(at.x(), at.y(), at.z()) + 0.5); }
+    glm::dvec3 centre_of(const Voxel& at) const { return voxel * (glm::dvec3(at[0], at[1], at[2]) + 0.5); }
     /// Near the surface, above the ground, and in a voxel that is not solid.
     bool allows(const glm::dvec3& place) const {
         const double distance = solid->distance(place);
@@ -92,7 +102,7 @@ struct LightShares {
 
 struct VineTrial {
     glm::dvec3 direction, place;
-    openvdb::Coord voxel;
+    Voxel voxel;
 };
 
 /// Uniform in the cap of half-angle `spread` about the heading.
@@ -156,20 +166,20 @@ public:
     Spreading spreading() const override { return Spreading::plants; }
 
     void save(std::ostream& out) const override {
-        std::vector<openvdb::Coord> voxels;
+        std::vector<Voxel> voxels;
         for (const auto& [voxel, light] : light_) voxels.push_back(voxel);
         std::sort(voxels.begin(), voxels.end());
         espalier::put(out, static_cast<std::uint64_t>(voxels.size()));
-        for (const openvdb::Coord& voxel : voxels) {
-            espalier::put(out, std::array{voxel.x(), voxel.y(), voxel.z()});
+        for (const Voxel& voxel : voxels) {
+            espalier::put(out, voxel);
             espalier::put(out, light_.at(voxel));
         }
     }
     void restore(std::istream& in) override {
         light_.clear();
         for (auto left = espalier::get<std::uint64_t>(in); left > 0; --left) {
-            const auto [x, y, z] = espalier::get<std::array<int, 3>>(in);
-            light_[{x, y, z}] = espalier::get<VoxelLight>(in);
+            const auto voxel = espalier::get<Voxel>(in);
+            light_[voxel] = espalier::get<VoxelLight>(in);
         }
     }
 
@@ -218,32 +228,31 @@ private:
         for (std::int64_t i = 0; i < trials_; ++i) {
             const glm::dvec3 direction = direction_about(query.pose, least_cosine_, samples);
             const glm::dvec3 place = query.pose.position + length * direction;
-            const openvdb::Coord voxel = room_.voxel_of(place);
+            const Voxel voxel = room_.voxel_of(place);
             if (nodes_in(voxel) >= most_nodes_ || !room_.allows(place)) continue;
             if (room_.is_clear(query.pose.position, direction, length)) allowed.push_back({direction, place, voxel});
         }
         return allowed;
     }
 
-    double nodes_in(const openvdb::Coord& voxel) const {
+    double nodes_in(const Voxel& voxel) const {
         const auto found = nodes_.find(voxel);
         return found == nodes_.end() ? 0 : found->second;
     }
 
     /// Looks once at the light of every voxel that this step is the first to ask for.
     void look_at_voxels(std::span<const Query> queries) {
-        std::vector<openvdb::Coord> asked;
+        std::vector<Voxel> asked;
         for (std::size_t i = 0; i < queries.size(); ++i) {
             if (queries[i].parameters.size() >= 5) asked.push_back(room_.voxel_of(queries[i].pose.position));
             for (const VineTrial& trial : tried_[i]) asked.push_back(trial.voxel);
         }
         // Leaves change the light of a voxel, the solid does not.
-        if (extinction_ == 0)
-            std::erase_if(asked, [&](const openvdb::Coord& voxel) { return light_.count(voxel) > 0; });
+        if (extinction_ == 0) std::erase_if(asked, [&](const Voxel& voxel) { return light_.count(voxel) > 0; });
         std::sort(asked.begin(), asked.end());
         asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
         std::vector<VoxelView*> views;
-        for (const openvdb::Coord& voxel : asked) views.push_back(&views_[voxel]);
+        for (const Voxel& voxel : asked) views.push_back(&views_[voxel]);
         std::vector<VoxelLight> seen(asked.size());
         for_in_parallel(std::size_t{0}, asked.size(), [&](std::size_t i) {
             const glm::dvec3 centre = room_.centre_of(asked[i]);
@@ -272,7 +281,7 @@ private:
     }
 
     double exposure(const VoxelLight& light) const { return sun_share_ * light.sun + (1 - sun_share_) * light.sky; }
-    double exposure(const openvdb::Coord& voxel) const { return exposure(light_.at(voxel)); }
+    double exposure(const Voxel& voxel) const { return exposure(light_.at(voxel)); }
 
     double score(const VineTrial& trial, const glm::dvec3& heading) const {
         const double near = 1 - room_.solid->distance(trial.place) / room_.reach;
@@ -317,16 +326,11 @@ private:
     }
 
     std::shared_ptr<const FieldGrid> grid() const {
-        initialize_openvdb();
-        auto field = std::make_shared<FieldGrid>();
-        field->grid = openvdb::FloatGrid::create(0);
-        field->grid->setTransform(cell_centred_transform(room_.voxel, {0, 0, 0}));
-        auto accessor = field->grid->getAccessor();
+        VoxelValues values(room_.voxel, {0, 0, 0});
         for (const auto& [voxel, light] : light_) {
-            field->box.expand(voxel);
-            accessor.setValue(voxel, static_cast<float>(exposure(light)));
+            values.set({voxel[0], voxel[1], voxel[2]}, static_cast<float>(exposure(light)));
         }
-        return field;
+        return values.grid();
     }
 
     VineRoom room_;
@@ -336,10 +340,10 @@ private:
     double least_cosine_, most_nodes_, sun_share_ = 0.5, extinction_;
     LeafArea leaves_;
     LightShares sky_, sun_;
-    std::unordered_map<openvdb::Coord, VoxelView> views_;   ///< past the solid, where leaves make the light change
-    std::unordered_map<openvdb::Coord, VoxelLight> light_;  ///< light in the voxels looked at so far, as last seen
-    std::unordered_map<openvdb::Coord, double> nodes_;      ///< nodes of this step
-    std::vector<std::vector<VineTrial>> tried_;             ///< trials of this step, for each query
+    std::unordered_map<Voxel, VoxelView, VoxelHash> views_;   ///< past the solid, where leaves make the light change
+    std::unordered_map<Voxel, VoxelLight, VoxelHash> light_;  ///< light in the voxels looked at so far, as last seen
+    std::unordered_map<Voxel, double, VoxelHash> nodes_;      ///< nodes of this step
+    std::vector<std::vector<VineTrial>> tried_;               ///< trials of this step, for each query
     std::vector<Totals> totals_;
 };
 

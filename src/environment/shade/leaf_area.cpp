@@ -1,5 +1,7 @@
 #include "environment/shade/leaf_area.h"
 
+#include "espalier/geometry/openvdb_grid.h"
+
 #include "geometry/drawn/faces.h"
 
 #include <glm/common.hpp>
@@ -9,14 +11,21 @@
 
 namespace espalier::environment {
 
+struct LeafArea::Voxels {
+    openvdb::FloatGrid::Ptr areas = openvdb::FloatGrid::create(0);  ///< m^2
+    openvdb::CoordBBox box;
+};
+
 LeafArea::LeafArea(double voxel) : voxel_(voxel) {
     initialize_openvdb();
-    areas_ = openvdb::FloatGrid::create(0);
+    voxels_ = std::make_unique<Voxels>();
 }
 
+LeafArea::~LeafArea() = default;
+
 void LeafArea::collect(std::span<const PlantView> plants) {
-    areas_->clear();
-    box_.reset();
+    voxels_->areas->clear();
+    voxels_->box.reset();
     total_ = 0;
     DrawnFaces leaves;
     for (const PlantView& plant : plants) {
@@ -29,19 +38,21 @@ void LeafArea::collect(std::span<const PlantView> plants) {
 void LeafArea::add(const glm::dvec3& middle, double area) {
     const glm::dvec3 at = glm::floor(middle / voxel_);
     const openvdb::Coord voxel(static_cast<int>(at.x), static_cast<int>(at.y), static_cast<int>(at.z));
-    areas_->tree().setValue(voxel, areas_->tree().getValue(voxel) + static_cast<float>(area));
-    box_.expand(voxel);
+    openvdb::FloatTree& areas = voxels_->areas->tree();
+    areas.setValue(voxel, areas.getValue(voxel) + static_cast<float>(area));
+    voxels_->box.expand(voxel);
     total_ += area;
 }
 
 double LeafArea::crossed(const glm::dvec3& from, const glm::dvec3& direction) const {
-    if (box_.empty()) return 0;
+    const openvdb::CoordBBox& box = voxels_->box;
+    if (box.empty()) return 0;
     using VoxelRay = openvdb::math::Ray<double>;
     const glm::dvec3 eye = from / voxel_;
     VoxelRay ray({eye.x, eye.y, eye.z}, {direction.x, direction.y, direction.z}, 0);
-    const openvdb::Vec3d lower = box_.min().asVec3d(), upper = box_.max().asVec3d() + openvdb::Vec3d(1);
+    const openvdb::Vec3d lower = box.min().asVec3d(), upper = box.max().asVec3d() + openvdb::Vec3d(1);
     if (!ray.clip(openvdb::math::BBox<openvdb::Vec3d>(lower, upper))) return 0;
-    const auto areas = areas_->getConstAccessor();
+    const auto areas = voxels_->areas->getConstAccessor();
     openvdb::math::DDA<VoxelRay> voxels(ray);
     double sum = 0;
     do {

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "espalier/environment/environment_process.h"
-#include "espalier/geometry/openvdb_grid.h"
 
 #include <glm/vec3.hpp>
 
+#include <memory>
 #include <span>
 
 namespace espalier::environment {
@@ -15,6 +15,7 @@ namespace espalier::environment {
 class LeafArea {
 public:
     explicit LeafArea(double voxel);
+    ~LeafArea();
 
     /// Forgets what was there, and takes the leaves of these plants.
     void collect(std::span<const PlantView> plants);
@@ -24,11 +25,11 @@ public:
     double total() const { return total_; }
 
 private:
+    struct Voxels;
     void add(const glm::dvec3& middle, double area);
 
     double voxel_, total_ = 0;
-    openvdb::FloatGrid::Ptr areas_;  ///< m^2
-    openvdb::CoordBBox box_;
+    std::unique_ptr<Voxels> voxels_;
 };
 
 }  // namespace espalier::environment
