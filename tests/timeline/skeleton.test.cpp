@@ -302,6 +302,46 @@ TEST_CASE("plants.pvd lists a file that exists for every frame, after every fram
     }
 }
 
+TEST_CASE("pieces that others write are in the index once they are there, and missing ones end the run in words",
+          "[timeline]") {
+    const HandmadePlant plant = branched_plant();
+    const Settings table = timeline_table("statistics = false\nlifespans = false\npoints_per_file = 1\n");
+    const Fields fields;
+    RunFolder folder;
+    Timeline timeline(folder.path, table, 3);
+    CHECK(timeline.points_per_file() == 1);
+    Frame part{3, 1.5, {plant.frame()}, &fields};
+    part.models = {&plant.model};
+    part.ends = false;
+    part.piece = 0;
+    timeline.record(part);
+    CHECK_FALSE(std::filesystem::exists(folder.path / "plants.pvd"));
+    Frame last{3, 1.5, {}, &fields};
+    last.begins = false;
+    last.piece = 2;
+    SECTION("the other is written") {
+        const auto other = recorder_of_pieces(folder.path, table, 3);
+        REQUIRE(other);
+        part.piece = 1;
+        other->record(part);
+        timeline.record(last);
+        const std::string index = bytes_of(folder.path / "plants.pvd");
+        CHECK_THAT(index,
+                   Catch::Matchers::Contains("plants/0003.vtp") && Catch::Matchers::Contains("plants/0003-1.vtp"));
+    }
+    SECTION("the other went to another folder") {
+        CHECK_THROWS_WITH(timeline.record(last), Catch::Matchers::Contains("0003-1.vtp is not there"));
+        CHECK_FALSE(std::filesystem::exists(folder.path / "plants.pvd"));
+    }
+}
+
+TEST_CASE("who must read all plants lets no others write pieces", "[timeline]") {
+    const std::string table = GENERATE("", "lifespans = false\n", "statistics = false\n", "skeleton = false\n");
+    const RunFolder folder;
+    CHECK(Timeline(folder.path, timeline_table(table), 3).points_per_file() == 0);
+    CHECK_FALSE(recorder_of_pieces(folder.path, timeline_table(table), 3));
+}
+
 TEST_CASE("a chosen parameter that no model has is the user's mistake, with its place", "[timeline]") {
     const HandmadePlant plant = branched_plant();
     const auto message = [&](const std::string& toml) {

@@ -24,8 +24,8 @@ struct Ends {
 
 /// Every rank derives and interprets the plants of its own blocks. In an exchange each process answers, on every rank,
 /// the queries of the plants that the rank holds, having seen those queries of others that its kind of Spreading asks
-/// for; answers to the others' are thrown away. So the values are those of one rank that holds all plants. The first
-/// rank records: it gets the plants whole. All ranks call the same functions in the same order.
+/// for; answers to the others' are thrown away. So the values are those of one rank that holds all plants. Whoever
+/// records plants gets them whole. All ranks call the same functions in the same order.
 class Spread {
 public:
     /// `fields_read`: the fields that turtles read. Throws UserError for a process that cannot be spread, and where
