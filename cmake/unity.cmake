@@ -2,7 +2,11 @@
 # longer. Nothing is said of shadows then: a local name may be that of something unnamed of a neighbour.
 option(ESPALIER_UNITY "compile several files at once: those of a folder, and of small folders together" OFF)
 set(files_at_once 10)  # more need more memory than `./dev` counts on, and leave cores idle at the end
+# `compile_together(target N)`: N files at once.
 function(compile_together target)
+  if(ARGC GREATER 1)
+    set(files_at_once ${ARGV1})
+  endif()
   if(NOT ESPALIER_UNITY)
     return()
   endif()

@@ -78,12 +78,16 @@ inline std::vector<Block> blocks_of(const fs::path& page) {
     return blocks;
 }
 
-/// Whether the shell would run this, instead of waiting for the rest of a loop or of a text.
+/// Whether the shell would run this, instead of waiting for the rest of a loop or of a text. It is asked once.
 inline bool is_whole(const std::string& text) {
     if (text.ends_with('\\')) return false;
+    static std::map<std::string, bool> answers;
+    const auto [answer, is_new] = answers.try_emplace(text);
+    if (!is_new) return answer->second;
     std::string quoted;
     for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-    return std::system(("test -z \"$(bash -n -c '" + quoted + "' 2>&1)\"").c_str()) == 0;
+    answer->second = std::system(("test -z \"$(bash -n -c '" + quoted + "' 2>&1)\"").c_str()) == 0;
+    return answer->second;
 }
 
 inline std::vector<Command> commands_of(const Block& block) {

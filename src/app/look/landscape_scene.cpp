@@ -153,7 +153,7 @@ LandscapeScene read_landscape(const fs::path& file, const LandscapeOverrides& ov
                    detail = settings.table("detail");
     const LevelDistances distances = distances_of(detail);
     std::vector<StandPlant> stand = [&] {
-        const FrameOfRun frame = last_frame(stand_settings);
+        const RunAndFrame frame = last_frame(stand_settings);
         return blamed_on(stand_settings, "run", [&] { return stand_of(frame.geometry); });
     }();
     Terrain terrain = terrain_of(settings.table("terrain"), stand);

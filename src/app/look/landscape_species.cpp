@@ -34,8 +34,8 @@ std::string free_name(const std::string& wanted, const std::vector<LandscapeSpec
 
 }  // namespace
 
-FrameOfRun last_frame(const Settings& settings) {
-    return blamed_on(settings, "run", [&]() -> FrameOfRun {
+RunAndFrame last_frame(const Settings& settings) {
+    return blamed_on(settings, "run", [&]() -> RunAndFrame {
         RecordedRun run(settings.path("run"));
         const auto& frames = run.frames();
         const auto drawn = std::find_if(frames.rbegin(), frames.rend(),
@@ -47,7 +47,7 @@ FrameOfRun last_frame(const Settings& settings) {
 }
 
 void SpeciesOfFile::read(const Settings& entry, int number, const LevelDistances& distances) {
-    FrameOfRun plant = last_frame(entry);
+    RunAndFrame plant = last_frame(entry);
     const std::string name = free_name(entry.text_or("name", plant.run.folder().filename().string()), species);
     const double radius = entry.number_or("radius", 0, Range::not_negative());
     species.push_back(blamed_on(entry, "run", [&] {

@@ -25,11 +25,11 @@ auto blamed_on(const Settings& settings, const char* key, const Work& work) {
 }
 
 /// The run that a key names, and the last frame of its plants.
-struct FrameOfRun {
+struct RunAndFrame {
     RecordedRun run;
     FrameGeometry geometry;
 };
-FrameOfRun last_frame(const Settings& settings);
+RunAndFrame last_frame(const Settings& settings);
 
 struct SpeciesOfFile {
     std::vector<LandscapeSpecies> species;
