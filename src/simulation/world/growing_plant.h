@@ -25,7 +25,7 @@ void round_as_stored(ModuleString& string, Arithmetic arithmetic);
 ///
 /// Of ten thousand small plants each line of memory counts: what every step reads stands in the first four, what is
 /// read of all plants, one after the other, in the first.
-class alignas(64) GrowingPlant {
+class GrowingPlant {
 public:
     GrowingPlant(std::uint32_t number, const Plant& description, std::shared_ptr<const SymbolTable> symbols,
                  const DerivationSettings& settings);
@@ -61,7 +61,7 @@ public:
     void hold(std::shared_ptr<const ModuleString> string, std::shared_ptr<const Interpretation> interpretation);
     PlantFrame frame(std::vector<Quantity> quantities) const;
 
-    PlantMemory memory;
+    alignas(64) PlantMemory memory;
     // As derivation leaves them: to look them up elsewhere would cost much of a small plant's step.
     std::size_t modules = 0;
     int length = 0;
