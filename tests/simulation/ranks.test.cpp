@@ -77,7 +77,8 @@ TEST_CASE_METHOD(Spread, "a world has the same bytes on any number of ranks", "[
             "voxel = 0.5\nperiodic = true\n"),
         std::string("[environment.light]\nprocess = 'density'\n"),
         std::string("[environment.light]\nprocess = 'shadowpyramid'\ngrid_size = 81\ngrid_span = 20\n"),
-        std::string("[environment.light]\nprocess = 'canopy-light'\nvoxel = 0.5\n"),
+        std::string("[environment.light]\nprocess = 'canopy-light'\nvoxel = 2\nscattering = { rings = 1, around = 3 "
+                    "}\nsky = { par = 500, rings = 2 }\n"),
         std::string("[[plant.stage]]\nstage = 'pipe-radii'\n[[plant.stage]]\nstage = 'leaves'\n") + light);
     const Scene described = scene(process);
     run_alone(described);
@@ -209,7 +210,9 @@ TEST_CASE_METHOD(Spread, "ranks write the pieces of large frames together, with 
         light + in_pieces + "every = 2\nfields = ['light']\n",
         "[[plant.stage]]\nstage = 'pipe-radii'\n[[plant.stage]]\nstage = 'leaves'\n" + (light + in_pieces),
         "[[plant.stage]]\nstage = 'leaves'\ntexture = 'leaf.ppm'\n" + (light + in_pieces),
-        "[environment.light]\nprocess = 'canopy-light'\nvoxel = 0.5\n" + in_pieces + "organs = ['light.absorbed']\n");
+        "[environment.light]\nprocess = 'canopy-light'\nvoxel = 2\nscattering = { rings = 1, around = 3 }\nsky = { par "
+        "= 500, rings = 2 }\n" +
+            in_pieces + "organs = ['light.absorbed']\n");
     INFO(rest);
     const Scene described = scene(rest);
     run_alone(described);

@@ -305,9 +305,10 @@ private:
         const Place place{path.string(), 0, 0};
         for (const char* keyword : {"interpreted modules", "when interpret", "remote host"}) {
             if (std::erase(result_.unused, keyword) == 0) continue;
-            const std::string message = fmt::format("'{}' has no effect: a program of your own runs on this machine and "
-                                                    "is told modules, not their geometry",
-                                                    keyword);
+            const std::string message = fmt::format(
+                "'{}' has no effect: a program of your own runs on this machine and "
+                "is told modules, not their geometry",
+                keyword);
             result_.diagnostics.push_back({Diagnostic::Severity::error, place, message, ""});
         }
     }
