@@ -35,6 +35,12 @@ struct GrownTwice {
           result(run(read_scene(folder.path() / "scene.toml"), {.output = folder.path() / "run", .recorder = &last})) {}
 };
 
+RunOptions recorded_by(LastFrame& last) {
+    RunOptions options;
+    options.recorder = &last;
+    return options;
+}
+
 }  // namespace
 
 TEST_CASE("the last frame in memory is the one in the timeline, column by column", "[reading]") {
@@ -94,7 +100,7 @@ TEST_CASE("organs of a frame are those of its step, though the world has gone on
     for (int steps = 1; steps <= 3; ++steps) {
         const Scene scene = read_scene(folder.path() / "scene.toml", {{}, steps, {}});
         LastFrame last(scene.timeline);
-        run(scene, {.recorder = &last});
+        run(scene, recorded_by(last));
         const Column<double> file = recorded.geometry(recorded.frame(steps)).parameters.at("light.front"),
                              memory = last.geometry()->parameters.at("light.front");
         const auto same = [](double a, double b) { return a == b || (a != a && b != b); };
@@ -123,7 +129,7 @@ TEST_CASE("a run without a folder has a last frame, and one that stops has that"
                  "endlsystem\n");
     folder.write("scene.toml", "[[plant]]\nmodel = \"a.l\"\n");
     LastFrame last;
-    const RunResult result = run(read_scene(folder.path() / "scene.toml"), {.recorder = &last});
+    const RunResult result = run(read_scene(folder.path() / "scene.toml"), recorded_by(last));
     CHECK(result.stopped);
     REQUIRE(last.geometry());
     CHECK(last.step() == 4);

@@ -34,7 +34,8 @@ TEST_CASE("text splits into code points, and invalid bytes stand for themselves"
 
 TEST_CASE("carets line up behind tabs and characters of several bytes, and long lines are cut about them", "[base]") {
     CHECK(excerpt("\tA(\u03b1x)", 6) == "\n    \tA(\u03b1x)\n    \t   ^");
-    const std::string cut = excerpt(std::string(5000, 'F') + "!" + std::string(5000, 'F'), 5001);
+    const std::string half(5000, 'F');
+    const std::string cut = excerpt(half + "!" + half, 5001);
     CHECK(cut.size() < 400);
     const std::size_t second = cut.find('\n', 1);
     CHECK(cut.find('!') - 1 == cut.find('^') - second - 1);
