@@ -1,4 +1,6 @@
 // What processes say of how far their queries reach, which decides what ranks send each other.
+#include "environment/neighbours/reach.h"
+
 #include "espalier/base/random.h"
 
 #include "catch.h"
@@ -25,6 +27,11 @@ glm::dvec3 anywhere(const Chance& chance) {
     return {20 * chance() - 10, 4 * chance(), 20 * chance() - 10};
 }
 
+/// Half of them cast a shadow.
+Asked caster(const Chance& chance) {
+    return {anywhere(chance), {chance() < 0.5 ? 1.0 : 0.0, 0, 0, 0}};
+}
+
 Asked disc_at_height(const Chance& chance, double action, double most) {
     const glm::dvec3 at = anywhere(chance);
     return {{at.x, at.z, at.y}, {action, most * chance()}};
@@ -32,18 +39,10 @@ Asked disc_at_height(const Chance& chance, double action, double most) {
 
 const std::vector<Local>& local_processes() {
     static const std::vector<Local> all{
-        {"process = 'voxel-shade'\nvoxel = 0.3\ngradient_radius = 0.7\ndepth = 5",
-         [](const Chance& chance) {
-             return Asked{anywhere(chance), {chance() < 0.5 ? 1.0 : 0.0, 0, 0, 0}};
-         }},
+        {"process = 'voxel-shade'\nvoxel = 0.3\ngradient_radius = 0.7\ndepth = 5", caster},
         {"process = 'shadowpyramid'\ngrid_size = 81\ngrid_span = 12\nlight_randomness = 0.1\nshadow_spread = 1.3",
-         [](const Chance& chance) {
-             return Asked{anywhere(chance), {chance() < 0.5 ? 1.0 : 0.0, 0, 0, 0}};
-         }},
-        {"process = 'shadowpyramid'\ngrid_size = 40\ngrid_span = 12\nnumbers = 'cpfg'\nsample_radius = 0.3",
-         [](const Chance& chance) {
-             return Asked{anywhere(chance), {chance() < 0.5 ? 1.0 : 0.0, 0, 0, 0}};
-         }},
+         caster},
+        {"process = 'shadowpyramid'\ngrid_size = 40\ngrid_span = 12\nnumbers = 'cpfg'\nsample_radius = 0.3", caster},
         {"process = 'honda81'\nradius = 0.9",
          [](const Chance& chance) {
              return Asked{anywhere(chance), {std::floor(9 * chance()), std::floor(2 * chance())}};
@@ -113,11 +112,7 @@ Outcome outcome(const Local& process, std::uint64_t seed, Others others) {
         Query query;
         query.pose.position = asked.position;
         query.parameters = asked.parameters;
-        const Box reach = environment.reach(0, query);
-        for (int axis = 0; axis < 3; ++axis) {
-            if (reach.lower[axis] > places.upper[axis] || places.lower[axis] > reach.upper[axis]) return false;
-        }
-        return true;
+        return overlap(environment.reach(0, query), places);
     };
     AskingPlants plants;
     plants.add(own);

@@ -1,7 +1,7 @@
 // Points by place: which of them lie in a box, without asking all.
 #pragma once
 
-#include "espalier/geometry/plant_geometry.h"
+#include "environment/neighbours/reach.h"
 
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
@@ -88,7 +88,7 @@ private:
 
     template <class Visit>
     bool visit_around(const glm::dvec3& centre, double reach, const Cell* left_out, const Visit& visit) const {
-        const glm::dvec3 half = glm::dvec3(reach * (1 + 1e-9)) + 1e-15 * glm::abs(centre);
+        const glm::dvec3 half = glm::dvec3(reach * beyond_rounding) + 1e-15 * glm::abs(centre);
         const Cell lower = cell_of(glm::clamp(centre - half, least_, most_));
         const Cell upper = cell_of(glm::clamp(centre + half, least_, most_));
         if (count(lower, upper) > static_cast<double>(cells_.size())) {

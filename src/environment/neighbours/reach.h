@@ -17,4 +17,11 @@ inline Box box_around(const glm::dvec3& place, const glm::dvec3& aside) {
     return {place - aside, place + aside};
 }
 
+inline bool overlap(const Box& a, const Box& b) {
+    for (int axis = 0; axis < 3; ++axis) {
+        if (a.lower[axis] > b.upper[axis] || b.lower[axis] > a.upper[axis]) return false;
+    }
+    return true;
+}
+
 }  // namespace espalier::environment

@@ -3,6 +3,7 @@
 #include "espalier/base/error.h"
 
 #include "base/bytes.h"
+#include "environment/neighbours/reach.h"
 #include "simulation/spread/blocks.h"
 #include "simulation/spread/plant_bytes.h"
 
@@ -16,13 +17,6 @@
 
 namespace espalier::simulation {
 namespace {
-
-bool overlap(const Box& a, const Box& b) {
-    for (int axis = 0; axis < 3; ++axis) {
-        if (a.lower[axis] > b.upper[axis] || b.lower[axis] > a.upper[axis]) return false;
-    }
-    return true;
-}
 
 /// Says whether the load of ranks differs so much that moving plants pays.
 bool is_lopsided(const std::vector<double>& loads) {
