@@ -61,6 +61,15 @@ TEST_CASE_METHOD(Workplace, "a model on its own runs, tells where its output is,
     CHECK(summary["bytes"] > std::filesystem::file_size(path() / "there" / "run.json"));
 }
 
+TEST_CASE_METHOD(Workplace, "info counts a frame of several files once", "[app]") {
+    write("bush.l", models::bush);
+    write("pair.toml",
+          "[[plant]]\nmodel = 'bush.l'\npositions = [[0, 0, 0], [9, 0, 0]]\n[timeline]\npoints_per_file = 1\n");
+    REQUIRE(run("run pair.toml --output there").code == 0);
+    REQUIRE(std::filesystem::exists(path() / "there" / "plants" / "0005-1.vtp"));
+    CHECK(json::parse(run("info there --json").out)["frames"] == 6);
+}
+
 TEST_CASE_METHOD(Workplace, "info shows a few plants side by side, of a stand the least, the mean and the most",
                  "[app]") {
     write("row.l", "Lsystem: 1\n#define N 1\nderivation length: 1\nAxiom: A\nA --> A F(N)\nendlsystem\n");

@@ -62,10 +62,14 @@ std::uintmax_t bytes_in(const fs::path& folder) {
     return bytes;
 }
 
-std::size_t count_files(const fs::path& folder, const std::string& extension) {
+/// Further files of a frame that is cut into several have a dash in their names.
+std::size_t count_frames(const fs::path& folder, const std::string& extension) {
     if (!fs::is_directory(folder)) return 0;
     std::size_t count = 0;
-    for (const auto& entry : fs::directory_iterator(folder)) count += entry.path().extension() == extension;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const bool begins_frame = entry.path().stem().string().find('-') == std::string::npos;
+        count += begins_frame && entry.path().extension() == extension;
+    }
     return count;
 }
 
@@ -77,7 +81,7 @@ Json fields_of(const fs::path& folder) {
         if (entry.is_directory()) paths.push_back(entry.path());
     }
     std::sort(paths.begin(), paths.end());
-    for (const fs::path& path : paths) fields[path.filename().string()] = count_files(path, ".vti");
+    for (const fs::path& path : paths) fields[path.filename().string()] = count_frames(path, ".vti");
     return fields;
 }
 
@@ -103,7 +107,7 @@ Json summary_of(const fs::path& folder, const Json& run, const RecordedTable& la
     summary["seconds"] = run.value("timings", Json::object()).value("total", 0.0);
     summary["memory"] = run.value("memory", Json());
     summary["peak_memory"] = run.value("peak_memory", Json());
-    summary["frames"] = count_files(folder / "plants", ".vtp");
+    summary["frames"] = count_frames(folder / "plants", ".vtp");
     summary["fields"] = fields_of(folder / "fields");
     summary["plants"] = run.value("plants", Json::array());
     summary["bytes"] = bytes_in(folder);
