@@ -2,6 +2,8 @@
 # longer. Nothing is said of shadows then: a local name may be that of something unnamed of a neighbour.
 option(ESPALIER_UNITY "compile several files at once: those of a folder, and of small folders together" OFF)
 set(files_at_once 10)  # more need more memory than `./dev` counts on, and leave cores idle at the end
+# GCC first looks for memory that it no longer needs when it has used half a gigabyte: a tenth of its time is saved so.
+add_compile_options($<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
 # `compile_together(target N)`: N files at once.
 function(compile_together target)
   if(ARGC GREATER 1)
@@ -92,7 +94,8 @@ function(compile_quickly target)
   endif()
 endfunction()
 
-# The command line and the server of the studio only hand work on; at -O3, half of their compilation went into that.
+# The command line and the server of the studio only hand work on, and models are read once a run; at -O3, half of the
+# compilation of these went into that.
 function(compile_lightly target)
   target_compile_options(${target} PRIVATE -O1)
 endfunction()

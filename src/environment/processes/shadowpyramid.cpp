@@ -3,25 +3,24 @@
 // environment program of that name does it; voxel-shade is this project's process.
 #include "espalier/base/math.h"
 #include "espalier/environment/environment_process.h"
-#include "espalier/geometry/openvdb_grid.h"
 
 #include "base/parallel.h"
 #include "environment/exchange/answer_statistics.h"
 #include "environment/parameter_file.h"
+#include "geometry/grids/voxel_values.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
-#include <openvdb/tools/Interpolation.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <memory>
+#include <tuple>
 #include <vector>
 
 namespace espalier::environment {
 namespace {
-
-using openvdb::Coord;
 
 class ShadowPyramid final : public EnvironmentProcess {
 public:
@@ -45,12 +44,11 @@ public:
         bias_ = file.number("light vertical bias", 0, Range::between(-1e6, 1e6));
         radius_ = file.number("sample radius", 1.6, Range::positive());
         samples_ = RandomKey(context.seed, 0, Stream::process, 0x7368616479);
-        initialize_openvdb();
         cast({}, fields);
     }
 
     void advance(const WorldView&, std::span<const Query> queries, Fields& fields) override {
-        std::vector<Coord> casters;
+        std::vector<glm::ivec3> casters;
         for (const Query& query : queries) {
             if (!(query.parameters[0] > 0)) continue;
             const glm::dvec3 index = query.pose.position / voxel_;
@@ -58,17 +56,20 @@ public:
             if (as_cpfg_) place.y = std::trunc(index.y);
             if (std::max(std::abs(place.x), std::abs(place.z)) > farthest_) continue;
             if (place.y < lowest_ || place.y > highest_) continue;
-            casters.emplace_back(static_cast<int>(place.x), static_cast<int>(place.y), static_cast<int>(place.z));
+            casters.emplace_back(place);
         }
-        std::sort(casters.begin(), casters.end());  // the product of many shadows is the same in any order of queries
+        // The product of many shadows is the same in any order of queries.
+        std::sort(casters.begin(), casters.end(), [](const glm::ivec3& a, const glm::ivec3& b) {
+            return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+        });
         cast(casters, fields);
     }
 
     void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
         for_in_parallel(tbb::blocked_range<std::size_t>(0, queries.size(), 256), [&](const auto& some) {
-            const auto accessor = light_->getConstAccessor();
+            const VoxelReader light(light_);
             for (std::size_t i = some.begin(); i < some.end(); ++i) {
-                answer_one(accessor, queries[i], static_cast<std::uint32_t>(world.step), answers[i]);
+                answer_one(light, queries[i], static_cast<std::uint32_t>(world.step), answers[i]);
             }
         });
         statistics_.sum_up(queries, answers);
@@ -87,13 +88,11 @@ public:
         return {at - glm::dvec3(wide, depth_ * voxel_ + aside, wide), at + glm::dvec3(wide, aside, wide)};
     }
 
-    ProcessMemory memory() const override { return {2 * light_->memUsage(), true}; }
+    ProcessMemory memory() const override { return {2 * bytes_held(*light_), true}; }
     void limit_memory(std::size_t bytes) override { memory_ = bytes; }
 
 private:
-    using Accessor = openvdb::FloatGrid::ConstAccessor;
-
-    void cast(const std::vector<Coord>& casters, Fields& fields) {
+    void cast(const std::vector<glm::ivec3>& casters, Fields& fields) {
         const double widest = 2 * std::floor(spread_ * std::max(depth_ - 1, 0)) + 1;
         const double side = 2.0 * farthest_ + 1;
         const double voxels =
@@ -102,19 +101,17 @@ private:
             throw RunError(fmt::format("{} shadows of {} layers need up to {:.3g} voxels, more than memory allows",
                                        casters.size(), depth_, voxels));
         }
-        light_ = openvdb::FloatGrid::create(1.0F);
-        light_->setTransform(cell_centred_transform(voxel_, glm::dvec3(-0.5 * voxel_)));
-        auto accessor = light_->getAccessor();
+        VoxelValues light(voxel_, glm::dvec3(-0.5 * voxel_), 1);
         if (pyramid_.empty() && !casters.empty()) pyramid_ = pyramid();
-        for (const Coord& caster : casters) {
+        for (const glm::ivec3& caster : casters) {
             const float* left = pyramid_.data();
-            for (int layer = 0; layer < depth_ && caster.y() - layer >= lowest_; ++layer) {
-                cast_layer(accessor, caster, layer, left);
+            for (int layer = 0; layer < depth_ && caster.y - layer >= lowest_; ++layer) {
+                cast_layer(light, caster, layer, left);
                 left += std::size_t(reach(layer) + 1) * std::size_t(reach(layer) + 1);
             }
         }
-        fields.provide({name_, "1", "part of the light that the shadows leave",
-                        std::make_shared<FieldGrid>(FieldGrid{light_, light_->evalActiveVoxelBoundingBox()}), true});
+        light_ = light.grid();
+        fields.provide({name_, "1", "part of the light that the shadows leave", light_, true});
     }
 
     /// What each voxel of a pyramid leaves, layer after layer; of every layer the quarter with x and z of 0 or more,
@@ -134,42 +131,34 @@ private:
 
     int reach(int layer) const { return std::min(static_cast<int>(spread_ * layer), 2 * farthest_); }
 
-    // Row by row and leaf by leaf. `left` stands at the layer's quarter.
-    void cast_layer(openvdb::FloatGrid::Accessor& accessor, const Coord& caster, int layer, const float* left) const {
-        using Leaf = openvdb::FloatTree::LeafNodeType;
-        const int half = reach(layer), y = caster.y() - layer;
-        const int last = std::min(caster.z() + half, farthest_);
-        for (int x = std::max(caster.x() - half, -farthest_); x <= std::min(caster.x() + half, farthest_); ++x) {
-            const float* row = left + std::size_t(std::abs(x - caster.x())) * std::size_t(half + 1);
-            for (int z = std::max(caster.z() - half, -farthest_); z <= last;) {
-                Leaf& leaf = *accessor.touchLeaf(Coord(x, y, z));
-                float* values = leaf.buffer().data();
-                openvdb::Index at = Leaf::coordToOffset(Coord(x, y, z));
-                const int end = std::min(last, z | static_cast<int>(Leaf::DIM - 1));
-                for (; z <= end; ++z, ++at) {
-                    values[at] *= row[std::abs(z - caster.z())];
-                    leaf.setValueOn(at);
-                }
+    // Row by row. `left` stands at the layer's quarter.
+    void cast_layer(VoxelValues& light, const glm::ivec3& caster, int layer, const float* left) const {
+        const int half = reach(layer), y = caster.y - layer;
+        const int last = std::min(caster.z + half, farthest_);
+        for (int x = std::max(caster.x - half, -farthest_); x <= std::min(caster.x + half, farthest_); ++x) {
+            const float* row = left + std::size_t(std::abs(x - caster.x)) * std::size_t(half + 1);
+            for (int z = std::max(caster.z - half, -farthest_); z <= last;) {
+                for (float& value : light.row({x, y, z}, last - z + 1)) value *= row[std::abs(z++ - caster.z)];
             }
         }
     }
 
-    double light_at(const Accessor& accessor, const glm::dvec3& place) const {
+    double light_at(const VoxelReader& light, const glm::dvec3& place) const {
         const glm::dvec3 index = place / voxel_;
         if (std::max(std::abs(index.x), std::abs(index.z)) > farthest_ + 1) return 1;
         if (index.y < lowest_ - 1 || index.y > highest_ + 1) return 1;
-        return openvdb::tools::BoxSampler::sample(accessor, openvdb::Vec3d(index.x, index.y, index.z));
+        return light.between(index);
     }
 
-    void answer_one(const Accessor& accessor, const Query& query, std::uint32_t step, Answer answer) const {
+    void answer_one(const VoxelReader& light, const Query& query, std::uint32_t step, Answer answer) const {
         const glm::dvec3& place = query.pose.position;
-        answer[0] = light_at(accessor, place);
+        answer[0] = light_at(light, place);
         if (answer.size() < 4) return;
         RandomSamples samples(samples_, mix(query.identity, query.plant), step);
         for (int axis = 0; axis < 3; ++axis) {
             glm::dvec3 reach(0);
             reach[axis] = radius_;
-            const double rise = light_at(accessor, place + reach) - light_at(accessor, place - reach);
+            const double rise = light_at(light, place + reach) - light_at(light, place - reach);
             const double chance = randomness_ > 0 ? randomness_ * (2 * samples.uniform() - 1) : 0;
             answer[static_cast<std::size_t>(axis) + 1] =
                 (as_cpfg_ ? rise : rise / (2 * radius_)) + chance + (axis == 1 ? bias_ : 0);
@@ -184,7 +173,7 @@ private:
     int depth_;
     RandomKey samples_;
     std::vector<float> pyramid_;
-    openvdb::FloatGrid::Ptr light_;
+    std::shared_ptr<const FieldGrid> light_;
     AnswerStatistics statistics_;
 };
 

@@ -1,105 +1,30 @@
 // vdb: a field of numbers or vectors from OpenVDB files, as other programs write them: one, or several in time.
-#include "espalier/base/file.h"
 #include "espalier/environment/environment_process.h"
 #include "espalier/geometry/field_values.h"
-#include "espalier/geometry/openvdb_grid.h"
 
 #include "base/parallel.h"
 #include "base/text.h"
 #include "environment/rising.h"
+#include "geometry/grids/grid_map.h"
+#include "geometry/grids/voxel_values.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <openvdb/io/Stream.h>
-
-#include <sstream>
 
 namespace espalier::environment {
 namespace {
-
-/// The grids of a file. Throws UserError at `place`.
-openvdb::GridPtrVec read_grids(const std::filesystem::path& path, const Place& place) {
-    initialize_openvdb();
-    try {
-        std::istringstream in(read_text(path), std::ios::binary);
-        const openvdb::GridPtrVecPtr grids = openvdb::io::Stream(in, /*delayLoad=*/false).getGrids();
-        if (!grids->empty()) return *grids;
-    } catch (const UserError& error) {
-        throw UserError(place, error.what());
-    } catch (const std::exception& error) {
-        throw UserError(place, fmt::format("{} is no OpenVDB file: {}", path.string(), error.what()));
-    }
-    throw UserError(place, fmt::format("{} holds no grid", path.string()));
-}
-
-/// The one that the key `grid` names, or the first.
-openvdb::GridBase::Ptr chosen_grid(const openvdb::GridPtrVec& grids, const Settings& settings) {
-    const std::string wanted = settings.text_or("grid", grids.front()->getName());
-    std::vector<std::string> names;
-    for (const openvdb::GridBase::Ptr& grid : grids) {
-        if (grid->getName() == wanted) return grid;
-        names.push_back(grid->getName());
-    }
-    throw UserError(settings.place("grid"), fmt::format("the file has no grid '{}'{}; it has: {}", wanted,
-                                                        did_you_mean(wanted, names), fmt::join(names, ", ")));
-}
-
-/// A grid of floats with what `part` takes of each value.
-template <class Grid, class Part>
-std::shared_ptr<const FieldGrid> part_of(const Grid& source, const Part& part) {
-    const auto floats = openvdb::FloatGrid::create(static_cast<float>(part(source.background())));
-    floats->setTransform(source.transform().copy());
-    for (auto value = source.cbeginValueOn(); value; ++value) {
-        openvdb::CoordBBox box;
-        value.getBoundingBox(box);
-        floats->fill(box, static_cast<float>(part(*value)));
-    }
-    return std::make_shared<FieldGrid>(FieldGrid{floats, floats->evalActiveVoxelBoundingBox()});
-}
-
-template <class Grid>
-bool add_numbers(const openvdb::GridBase& grid, std::vector<std::shared_ptr<const FieldGrid>>& found) {
-    if (!grid.isType<Grid>()) return false;
-    found.push_back(part_of(static_cast<const Grid&>(grid), [](const auto& value) { return value; }));
-    return true;
-}
-
-template <class Grid>
-bool add_vectors(const openvdb::GridBase& grid, std::vector<std::shared_ptr<const FieldGrid>>& found) {
-    if (!grid.isType<Grid>()) return false;
-    for (int axis = 0; axis < 3; ++axis) {
-        found.push_back(part_of(static_cast<const Grid&>(grid), [axis](const auto& value) { return value[axis]; }));
-    }
-    return true;
-}
-
-/// What a file holds of a field: a grid of numbers, or one for each component of vectors.
-struct Map {
-    std::string grid;  ///< name in the file
-    std::vector<std::shared_ptr<const FieldGrid>> parts;
-};
-
-Map read_map(const std::filesystem::path& path, const Place& place, const Settings& settings) {
-    const openvdb::GridBase::Ptr grid = chosen_grid(read_grids(path, place), settings);
-    Map map{grid->getName(), {}};
-    const bool is_known =
-        add_numbers<openvdb::FloatGrid>(*grid, map.parts) || add_numbers<openvdb::DoubleGrid>(*grid, map.parts) ||
-        add_vectors<openvdb::Vec3SGrid>(*grid, map.parts) || add_vectors<openvdb::Vec3DGrid>(*grid, map.parts);
-    if (is_known && grid->transform().isLinear()) return map;
-    throw UserError(place,
-                    fmt::format("the grid '{}' is neither of numbers nor of vectors in a regular lattice", map.grid));
-}
 
 /// Maps in time. Between two of them values change by straight lines; one alone holds for ever.
 class MapsInTime {
 public:
     MapsInTime(const Settings& settings, std::string name, std::size_t memory)
         : name_(std::move(name)), memory_(memory) {
-        if (!settings.has("maps")) {
-            add(0, read_map(settings.path("file"), settings.place("file"), settings), settings.place("file"));
-        }
+        const std::string grid = settings.text_or("grid", "");
+        const auto read = [&](const Settings& table) {
+            return read_grid_map({table.path("file"), table.place("file"), grid, settings.place("grid")});
+        };
+        if (!settings.has("maps")) add(0, read(settings), settings.place("file"));
         for (const Settings& table : settings.tables("maps")) {
-            add(table.number("time"), read_map(table.path("file"), table.place("file"), settings), table.place());
+            add(table.number("time"), read(table), table.place());
         }
         if (maps_.empty()) throw UserError(settings.place("maps"), "'maps' must hold one map or more");
         if (change() && times_.front() > 0) {
@@ -121,17 +46,17 @@ public:
     }
 
 private:
-    void add(double time, Map map, const Place& place) {
+    void add(double time, GridMap map, const Place& place) {
         if (!times_.empty() && time <= times_.back()) {
             throw UserError(place, fmt::format("time {} is not behind time {} of the map before", format_general(time),
                                                format_general(times_.back())));
         }
-        if (!maps_.empty() && !fits(map)) {
+        if (!maps_.empty() && !same_lattice(map, maps_.front())) {
             throw UserError(place, fmt::format("this map does not match the first, '{}': maps in time have the same "
                                                "lattice, and all hold numbers or all vectors",
                                                grid()));
         }
-        for (const auto& part : map.parts) bytes_ += part->grid->memUsage();
+        for (const auto& part : map.parts) bytes_ += bytes_held(*part);
         if (bytes_ > memory_) {
             throw UserError(place, fmt::format("the grids take {:.3g} GB, which is more than the memory there is",
                                                static_cast<double>(bytes_) / 1e9));
@@ -140,27 +65,10 @@ private:
         maps_.push_back(std::move(map));
     }
 
-    bool fits(const Map& map) const {
-        return map.parts.size() == parts() &&
-               map.parts.front()->grid->transform() == maps_.front().parts.front()->grid->transform();
-    }
-
-    static std::shared_ptr<const FieldGrid> mixed(const FieldGrid& a, const FieldGrid& b, double share) {
-        const auto grid = openvdb::FloatGrid::create();
-        grid->setTransform(a.grid->transform().copy());
-        const auto mix = [share](const float& before, const float& after, float& value) {
-            value = static_cast<float>(before + share * (double(after) - before));
-        };
-        grid->tree().combine2(a.grid->tree(), b.grid->tree(), mix);
-        openvdb::CoordBBox box = a.box;
-        box.expand(b.box);
-        return std::make_shared<FieldGrid>(FieldGrid{grid, box});
-    }
-
     std::string name_;                ///< of the process
     std::size_t memory_, bytes_ = 0;  ///< that there are, and that the grids take
     std::vector<double> times_;
-    std::vector<Map> maps_;
+    std::vector<GridMap> maps_;
 };
 
 class Vdb final : public EnvironmentProcess {

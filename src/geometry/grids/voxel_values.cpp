@@ -3,6 +3,9 @@
 #include "espalier/geometry/openvdb_grid.h"
 
 #include <openvdb/tools/Dense.h>
+#include <openvdb/tools/Interpolation.h>
+
+#include <algorithm>
 
 namespace espalier::geometry {
 
@@ -17,10 +20,10 @@ struct VoxelValues::Writing {
     }
 };
 
-VoxelValues::VoxelValues(double voxel, const glm::dvec3& origin) {
+VoxelValues::VoxelValues(double voxel, const glm::dvec3& origin, float unset) {
     initialize_openvdb();
     auto field = std::make_shared<FieldGrid>();
-    field->grid = openvdb::FloatGrid::create(0);
+    field->grid = openvdb::FloatGrid::create(unset);
     field->grid->setTransform(cell_centred_transform(voxel, origin));
     writing_ = std::make_unique<Writing>(Writing{field, field->grid->getAccessor()});
 }
@@ -34,6 +37,18 @@ void VoxelValues::set(const glm::ivec3& at, float value) {
 void VoxelValues::add(const glm::ivec3& at, float value) {
     const openvdb::Coord voxel = writing_->shown(at);
     writing_->values.setValue(voxel, writing_->values.getValue(voxel) + value);
+}
+
+std::span<float> VoxelValues::row(const glm::ivec3& at, int most) {
+    using Leaf = openvdb::FloatTree::LeafNodeType;
+    constexpr int edge = Leaf::DIM;
+    const openvdb::Coord voxel = writing_->shown(at);
+    Leaf& leaf = *writing_->values.touchLeaf(voxel);
+    const openvdb::Index first = Leaf::coordToOffset(voxel);
+    const int count = std::min(most, edge - (at.z & (edge - 1)));
+    for (int k = 0; k < count; ++k) leaf.setValueOn(first + static_cast<openvdb::Index>(k));
+    writing_->shown({at.x, at.y, at.z + count - 1});
+    return {leaf.buffer().data() + first, static_cast<std::size_t>(count)};
 }
 
 void VoxelValues::fill(const glm::ivec3& size, std::span<const float> values) {
@@ -66,6 +81,10 @@ float VoxelReader::value(const glm::dvec3& place) const {
     const openvdb::Vec3d index =
         reading_->field->grid->transform().worldToIndex(openvdb::Vec3d(place.x, place.y, place.z));
     return reading_->values.getValue(openvdb::Coord::round(index));
+}
+
+double VoxelReader::between(const glm::dvec3& index) const {
+    return openvdb::tools::BoxSampler::sample(reading_->values, openvdb::Vec3d(index.x, index.y, index.z));
 }
 
 std::size_t bytes_held(const FieldGrid& field) {

@@ -11,15 +11,17 @@
 
 namespace espalier::geometry {
 
-/// A field's grid in the making: voxels of edge `voxel`, that of (0, 0, 0) with its centre at `origin` + voxel/2; 0
-/// where nothing is set.
+/// A field's grid in the making: voxels of edge `voxel`, that of (0, 0, 0) with its centre at `origin` + voxel/2;
+/// `unset` where nothing is set.
 class VoxelValues {
 public:
-    VoxelValues(double voxel, const glm::dvec3& origin);
+    VoxelValues(double voxel, const glm::dvec3& origin, float unset = 0);
     ~VoxelValues();
 
     void set(const glm::ivec3& at, float value);
     void add(const glm::ivec3& at, float value);
+    /// The values of `at` and the voxels behind it along z, `most` or less, to be changed; they are set now.
+    std::span<float> row(const glm::ivec3& at, int most);
     /// Gives all voxels of a box that begins at (0, 0, 0) their values, x fastest; zeros are not set.
     void fill(const glm::ivec3& size, std::span<const float> values);
     /// A viewer should be shown all from `least` to `most`, too.
@@ -39,6 +41,8 @@ public:
 
     /// Of the voxel whose centre is nearest.
     float value(const glm::dvec3& place) const;
+    /// Linear between the voxels around `index`, which counts in voxels from the centre of (0, 0, 0).
+    double between(const glm::dvec3& index) const;
 
 private:
     struct Reading;
