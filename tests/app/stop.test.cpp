@@ -43,8 +43,8 @@ const std::string domain = "[simulation]\ndomain = { lower = [-2, -2, -2], upper
 
 class Stoppable : public Workplace {
 public:
-    /// Runs it and interrupts it when it has been at its endless work for a while: at the step behind its last whole one,
-    /// or, where it never comes to one, at a time. Returns the seconds that it takes to end.
+    /// Runs it and interrupts it when it has been at its endless work for a while: at the step behind its last whole
+    /// one, or, where it never comes to one, at a time. Returns the seconds that it takes to end.
     double interrupt(const Work& work) {
         using Clock = std::chrono::steady_clock;
         write("it.l", work.model);

@@ -89,6 +89,19 @@ TEST_CASE("a block may change its production's own parameters", "[language]") {
 }
 
 // "weights are any non-negative expressions, normalised by their sum; missing weight = 1"
+TEST_CASE("a mistake in a block tells its place, in models whose modules have an order, too", "[language]") {
+    std::string counting;  // what is compiled behind the block that fails
+    for (int i = 1; i <= 8; ++i) {
+        counting += "C" + std::to_string(i) + "(x) : {total = total + x; y = x * 2 + total;} 1 --> F(x+y)\n";
+    }
+    const std::string model =
+        "lsystem: 1\nderivation length: 1\naxiom: AC1(1)\nA --> B(1e308)\n"
+        "B(x) : {y = x * 10; total = total + ran(y);} 1 --> F(total)\n" +
+        counting + "endlsystem\n";
+    CHECK(failure(model, 2) ==
+          "model.l:5:37: ran(inf): the arguments must be finite numbers, in module B(1e+308) at step 2");
+}
+
 TEST_CASE("every production that matches goes into the pool", "[language]") {
     const std::string text =
         grown(one("seed: 3\n", std::string(30000, 'A'), "A --> B\nA --> C : 2\nA > Z --> D : 99\n"), 1);

@@ -84,8 +84,7 @@ GridMap read_grid_map(const MapSource& source) {
 }
 
 bool same_lattice(const GridMap& a, const GridMap& b) {
-    return a.parts.size() == b.parts.size() &&
-           a.parts.front()->grid->transform() == b.parts.front()->grid->transform();
+    return a.parts.size() == b.parts.size() && a.parts.front()->grid->transform() == b.parts.front()->grid->transform();
 }
 
 std::shared_ptr<const FieldGrid> mixed(const FieldGrid& before, const FieldGrid& after, double share) {

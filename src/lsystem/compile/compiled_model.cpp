@@ -220,8 +220,9 @@ void SystemCompiler::compile_programs(CompiledProduction& compiled, Blocks block
     const Production& production = *compiled.source;
     const bool apart = blocks == Blocks::apart;
     const std::vector<const Block*> none, before{&production.before}, all{&production.before, &production.after};
-    compiled.before = programs_.block(apart ? production.before : Block());
-    compiled.after = programs_.block(apart ? production.after : Block());
+    const Block nothing;
+    compiled.before = programs_.block(apart ? production.before : nothing);
+    compiled.after = programs_.block(apart ? production.after : nothing);
     if (production.condition) {
         const std::optional<double> known = programs_.fold(*production.condition);
         compiled.has_condition = !known || *known == 0;

@@ -140,7 +140,9 @@ public:
 
     bool is_external(std::uint32_t global) const { return external_.at(global); }
 
+    // Programs tell places of what they were compiled from, which must outlive them.
     Program block(const Block& block);
+    Program block(Block&& block) = delete;
     // What is computed behind blocks.
     Program value(const Expression& expression, const std::vector<const Block*>& blocks = {});
     Program arguments(const std::vector<ModuleTemplate>& modules, const std::vector<const Block*>& blocks = {});
