@@ -38,7 +38,7 @@ const char* const description =
 
 const char* const examples =
     "Examples:\n"
-    "  espalier_bench                    all rows, in less than three minutes\n"
+    "  espalier_bench                    all rows, in five to six minutes\n"
     "  espalier_bench --list             the rows, what they measure, and their goals\n"
     "  espalier_bench --row context      the rows with that word, in any case\n"
     "  espalier_bench --row forest --seconds 60\n"
