@@ -283,7 +283,7 @@ TEST_CASE("what stages draw of plants that ask is drawn again without a step, wh
     std::vector<std::unique_ptr<Grower::Grown>> kept;
     for (const std::string& text :
          {with(asking_scene, "\"= STEM\"", "2"), with(asking_scene, "exponent = 2", "exponent = 3"), defined,
-          with(asking_scene, "[[plant.stage]]", "[[plant.stage]]\nwhen = 0"),
+          with(asking_scene, "[[plant.stage]]", "[[plant.stage]]\nwhen = false"),
           with(asking_scene, "[environment.light]", "# a remark\n[environment.light]")}) {
         INFO(text);
         kept.push_back(grower.grow(text, before, 5));
@@ -319,7 +319,7 @@ TEST_CASE("what comes back to the strings of plants that ask is grown anew", "[s
     const auto first = grower.grow(asking_scene, nullptr, 5, 0);
     for (const std::string& text :
          {with(asking_scene, "voxel = 0.5", "voxel = 0.4"), with(asking_scene, "seed = 3", "seed = 4"),
-          with(asking_scene, "asking.l\"", "asking.l\"\nat = [1, 0, 0]"), with(asking_scene, "asking.l", "other.l"),
+          with(asking_scene, "asking.l\"", "asking.l\"\nposition = [1, 0, 0]"), with(asking_scene, "asking.l", "other.l"),
           with(asking_scene, "asking.l\"", "asking.l\"\ndefine = { SHARE = 0.8 }"),
           with(asking_scene, "voxel = 0.5", "voxel = 0.5\nstrength = 0.3")}) {
         INFO(text);

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <new>
@@ -218,8 +219,12 @@ void Growth::begin(Work& work, GrowthStart start) {
     }
     if (work.origin) steps_->expect(world.scene());
     if (may_extend_) world.set_steps(most_steps);
+    const std::vector<std::string> columns = organ_columns(world.scene(), world.environment());
     const std::shared_ptr<const KeptSteps> before = std::move(before_);
-    if (work.origin && before) work.derived = steps_->inherit(*before, *work.origin);
+    const auto knows = [&](const std::string& organ) { return before->organs().has(organ); };
+    const bool serves =
+        work.origin && before && (!work.origin->exchanges || std::all_of(columns.begin(), columns.end(), knows));
+    if (serves) work.derived = steps_->inherit(*before, *work.origin);
     if (!work.draws_apart && work.derived >= 0) {
         work.draws_apart = true;
         may_extend_ = false;
@@ -227,7 +232,7 @@ void Growth::begin(Work& work, GrowthStart start) {
     {
         const std::lock_guard lock(mutex_);
         scene_ = std::make_shared<const Scene>(world.scene());
-        organ_columns_ = organ_columns(world.scene(), world.environment());
+        organ_columns_ = columns;
     }
     for (const Plant& plant : world.scene().plants) start.plants.push_back(plant.name);
     for (const auto& [name, field] : world.environment().fields().all()) {

@@ -232,9 +232,11 @@ bool derivations_read_resources(const Scene& scene) {
     });
 }
 
-// The settings of a scene but for its stages, and for what its models are made of: these are compared themselves.
+// The settings of a scene but for its stages, what is recorded, and what its models are made of: these are compared
+// themselves.
 std::string settings_without_stages(const Scene& scene) {
     auto settings = nlohmann::json::parse(scene.root.resolved_json());
+    settings.erase("timeline");
     if (settings.contains("plant")) {
         for (auto& plant : settings["plant"]) {
             for (const char* key : {"stage", "define", "model"}) plant.erase(key);
