@@ -1,24 +1,29 @@
-"""Models of L-Py (Boudon et al. 2012), as far as they need no Python."""
+"""Models of L-Py (Boudon et al. 2012), as far as they need no Python beyond numbers."""
 
+import ast
 import re
+import textwrap
 
 from . import _espalier
-from .lpy_expressions import Unknown, expression
+from .lpy_expressions import Scope, Unknown, expression, is_random, written
 from .lpy_modules import Modules
+from .lpy_statements import Names, Production, Statements, assigned_in, parsed
 from .scene import Model
 
-_KEY = re.compile(r"\s*(axiom|derivation\s+length|maximum\s+depth|initial\s+seed|ignore|consider|module|group)\b\s*:?", re.I)
+_KEY = re.compile(r"(axiom|derivation\s+length|maximum\s+depth|initial\s+seed|ignore|consider|module|group)\b\s*:?", re.I)
 _SECTION = re.compile(r"\s*(production|decomposition|interpretation|homomorphism)\s*:\s*$", re.I)
-_CONSTANT = re.compile(r"\s*([A-Za-z_]\w*)\s*=(?!=)(.*)$")
+_TIMES = ("Start", "StartEach", "EndEach", "End")
 _TAIL = "###### INITIALISATION ######"  # written by L-Py's editor: its options, colours and curves
+_LONGEST = 200  # lines of one statement at the top
 
 
 def from_lpy(text):
     """The Model that a text of L-Py stands for; `.text` is what it says in the language of Espalier.
 
-    Read are: constants, module, axiom, derivation length, ignore, consider, productions with contexts, conditions and
-    parameters (arrows, and blocks of if, elif, else and produce), decomposition, interpretation or homomorphism,
-    maximum depth, and groups, of which only group 0 grows. What needs Python is an Error that names line and construct.
+    Read are: numbers and functions of numbers at the top, Start, StartEach, EndEach and End, module, axiom, derivation
+    length, ignore, consider, productions with contexts, conditions and parameters (arrows, and blocks of statements with
+    produce), decomposition, interpretation or homomorphism, maximum depth, random numbers, turtle queries, and groups, of
+    which only group 0 grows. What needs more of Python is an Error that names line and construct.
     """
     return Model(text=_Reader().read(text))
 
@@ -26,7 +31,12 @@ def from_lpy(text):
 class _Reader:
     def __init__(self):
         self._modules = Modules()
+        self._names = Names()
+        self._scope = Scope()
         self._constants = {}
+        self._variables = set()
+        self._begin = []  # statements before those of Start
+        self._times = {}  # the functions that L-Py calls itself: their statements
         self._header = {"derivation length": "1"}
         self._productions = {"production": [], "decomposition": [], "homomorphism": []}
         self._depths = {}
@@ -35,18 +45,33 @@ class _Reader:
 
     def read(self, text):
         lines = _lines(text)
+        self._find_variables(text)
         while lines:
             number, line = lines.pop(0)
             try:
                 self._statement(line, lines)
-            except Unknown as error:
-                problem = _espalier.Error(f"line {number}: {error}")
+            except (Unknown, RecursionError) as error:
+                said = error if isinstance(error, Unknown) else "nested too deeply"
+                problem = _espalier.Error(f"line {number}: {said}")
                 problem.line = number
                 raise problem from None
         return self._text()
 
+    def _find_variables(self, text):
+        """What functions and productions assign as `global` is no constant."""
+        for names in re.findall(r"^\s*global\s+(.*)$", text, re.M):
+            self._declare(re.findall(r"\w+", names.split("#")[0]))
+
+    def _declare(self, variables):
+        for name in variables:
+            if self._scope.written.get(name) in self._constants:
+                raise Unknown(f"'{name}' is assigned twice at the top: give the second number another name")
+            if name not in self._variables:
+                self._variables.add(name)
+                self._scope.written[name] = self._names.take(name)
+
     def _statement(self, line, lines):
-        section, key = _SECTION.match(line), _KEY.match(line)
+        section, key = _SECTION.match(line), _KEY.match(line.strip())
         if section:
             name = section[1].lower()
             self._section = "homomorphism" if name == "interpretation" else name
@@ -55,59 +80,107 @@ class _Reader:
         elif line.strip() == "endgroup":
             self._group = 0
         elif key and "-->" not in line:
-            self._keyword(" ".join(key[1].lower().split()), line[key.end() :].strip())
+            self._keyword(" ".join(key[1].lower().split()), line.strip()[key.end() :].strip())
         elif self._section:
             self._production(line, lines)
-        elif _CONSTANT.match(line):
-            name, value = _CONSTANT.match(line).groups()
-            self._constants[name] = expression(value, self._constants)
-        elif not re.match(r"\s*(from|import)\b", line):  # what they bring is refused where it is used
-            raise Unknown(f"'{line.strip()}' needs Python")
+        else:
+            for node in parsed(_whole(line, lines)):
+                self._top(node)
 
     def _keyword(self, key, value):
         if key == "module":
-            for name in re.findall(r"([A-Za-z_]\w*)\s*(?:\([^)]*\))?", value):
+            for name in re.findall(r"([A-Za-z_]\w*)\s*(?:\([^)]*\))?", value.split(":")[0]):
                 self._modules.declare(name)
         elif key == "group":
             self._group = int(value.rstrip(":")) if value.rstrip(":").isdigit() else 0
         elif key == "maximum depth":
-            self._depths[self._section] = expression(value, self._constants)
+            self._depths[self._section] = self._fixed(key, value)
         elif key in ("ignore", "consider"):
             self._header[key] = self._modules.symbols(value)
         elif key == "axiom":
-            self._header[key] = self._modules.successor(value, self._constants)
+            self._header[key] = self._modules.successor(value, self._scope)
+        elif key == "initial seed":
+            self._begin.append(f"srand({expression(value, self._scope)});")
         else:
-            self._header["seed" if key == "initial seed" else key] = expression(value, self._constants)
+            self._header[key] = self._fixed(key, value)
+
+    def _fixed(self, key, value):
+        """An expression that must be known before anything runs."""
+        text = expression(value, self._scope)
+        if is_random(text) or self._reads_variable(text):
+            raise Unknown(f"the {key} must be a number that nothing assigns later")
+        return text
+
+    def _top(self, node):
+        """A statement of Python outside of productions."""
+        if isinstance(node, (ast.Import, ast.ImportFrom)):  # what they bring is refused where it is used
+            self._scope.bring(node)
+        elif isinstance(node, ast.FunctionDef) and node.name in _TIMES:
+            said = Statements(self._scope, self._names, node.body)
+            self._times.setdefault(node.name, []).extend(said.lines)
+        elif isinstance(node, ast.FunctionDef):
+            self._scope.functions[node.name] = node
+        elif isinstance(node, ast.Assign) and all(isinstance(one, ast.Name) for one in node.targets):
+            for target in node.targets:
+                self._constant(target.id, node.value)
+        elif isinstance(node, ast.Expr) and isinstance(node.value, ast.Call) and ast.unparse(node.value.func) == "extern":
+            for one in node.value.keywords:
+                self._constant(one.arg, one.value)
+        else:
+            self._declare(assigned_in([node]))
+            self._begin += Statements(self._scope, self._names, [node], shared=self._variables).lines
+
+    def _constant(self, name, value):
+        """A number at the top; what is none is told where it is used."""
+        try:
+            text = written(value, self._scope)
+        except Unknown as problem:
+            self._scope.written.setdefault(name, problem)
+            return
+        if name in self._variables or is_random(text) or self._reads_variable(text) or name in self._scope.written:
+            self._declare([name])
+            self._begin.append(f"{self._scope.written[name]} = {text};")
+        else:
+            self._scope.written[name] = self._names.take(name)
+            self._constants[self._scope.written[name]] = text
+
+    def _reads_variable(self, text):
+        return not {self._scope.written[name] for name in self._variables}.isdisjoint(re.findall(r"[A-Za-z_]\w*", text))
 
     def _production(self, line, lines):
         arrow = line.find("-->")
         left, colon, rest = _before_colon(line if arrow < 0 else line[:arrow])
+        pattern, names = self._pattern(left)
+        scope = self._scope.with_names(names)
+        before = ""
         if arrow >= 0:
-            branches = [([(False, rest.strip())] if rest.strip() else [], line[arrow + 3 :])]
+            branches = [(f"({expression(rest, scope)})" if rest.strip() else "", line[arrow + 3 :])]
         elif colon:
-            branches = _produced(rest, lines, _indent(line))
+            block = Production(_block(rest, lines, _indent(line)), scope, self._names)
+            before, branches, scope = block.before, block.branches, block.scope
         else:
             raise Unknown(f"'{line.strip()}' is no production: it has neither an arrow nor a block")
-        pattern, names = self._pattern(left)
-        names = {*names, *self._constants}
-        for conditions, successor in branches:
-            words = " && ".join(_known(condition, names) for condition in conditions)
-            written = f"{pattern}{words and ' : ' + words} --> {self._modules.successor(successor, names)}"
+        if not branches:
+            raise Unknown("a production that produces nothing")
+        for condition, successor in branches:
+            head = f"{pattern} : {{ {before} }}" if before else f"{pattern}{condition and ' :'}"
+            made = f"{head}{condition and ' ' + condition} --> {self._modules.successor(successor, scope)}"
+            before = ""
             if self._group == 0:
-                self._productions[self._section].append(written)
+                self._productions[self._section].append(made)
 
     def _pattern(self, left):
         if "<<" in left or ">>" in left:
             raise Unknown("'<<' and '>>', new contexts")
-        written, names = [], []
+        parts, names = [], {}
         for part in re.split(r"([<>])", left):
             if part in ("<", ">"):
-                written.append(part)
+                parts.append(part)
             else:
                 text, more = self._modules.pattern(part)
-                written.append(text)
-                names += more
-        return " ".join(written), names
+                parts.append(text)
+                names.update(more)
+        return " ".join(parts), names
 
     def _text(self):
         if "axiom" not in self._header:
@@ -115,21 +188,18 @@ class _Reader:
         lines = [f"const {name} = {value};" for name, value in self._constants.items()]
         for name, counts in self._modules.declared.items():
             for count in sorted(counts):
-                lines.append(f"module {name}" + (f"({', '.join('xyzuvw'[:count])})" if count else "") + ";")
+                parameters = ", ".join(f"p{i + 1}" for i in range(count))
+                lines.append(f"module {name}" + (f"({parameters})" if count else "") + ";")
         lines.append("lsystem: 1")
         lines += [f"{key}: {value}" for key, value in self._header.items()]
+        self._times["Start"] = [*self._begin, *self._times.get("Start", [])]
+        lines += [f"{time}: {{ {' '.join(said)} }}" for time, said in self._times.items() if said]
         for section, productions in self._productions.items():
             if productions and section != "production":
                 lines.append(section)
                 lines += [f"maximum depth: {self._depths[section]}"] if section in self._depths else []
             lines += productions
         return "\n".join([*lines, "endlsystem", ""])
-
-
-def _known(condition, names):
-    denied, condition = condition
-    written = expression(condition, names)
-    return f"!({written})" if denied else f"({written})"
 
 
 def _lines(text):
@@ -161,50 +231,32 @@ def _before_colon(text):
     return text, "", ""
 
 
-def _produced(rest, lines, indent):
-    """The conditions and successors of a block, in the order in which they are tried."""
+def _block(rest, lines, indent):
+    """The statements of a production: those behind its colon, or the lines that are indented more."""
     if rest.strip():
-        block = [(indent + 1, rest.strip())]
-    else:
-        block = _deeper(indent, [(_indent(line), line.strip()) for _, line in lines])
-        del lines[: len(block)]
-    branches = []
-    _find_branches(block, [], branches)
-    if not branches:
-        raise Unknown("a production that produces nothing")
-    return branches
+        return rest.strip()
+    return textwrap.dedent("\n".join(_deeper(lines, indent)))
 
 
-def _deeper(indent, block):
-    """The lines at the beginning of a block that are indented more."""
-    end = next((i for i, (own, _) in enumerate(block) if own <= indent), len(block))
-    return block[:end]
+def _deeper(lines, indent):
+    """Takes the lines that are indented more than `indent` from the beginning."""
+    taken = []
+    while lines and _indent(lines[0][1]) > indent:
+        taken.append(lines.pop(0)[1])
+    return taken
 
 
-def _find_branches(block, given, branches):
-    """Adds the branches of a block under the conditions `given`; returns whether one of them always applies.
-
-    A condition is (denied, text). Branches are tried in order, so only those that may end without produce are denied.
-    """
-    denied, always = [], False
-    while block:
-        indent, line = block.pop(0)
-        word = re.match(r"(if|elif|else|produce|pass)\b(.*)$", line)
-        if not word:
-            raise Unknown(f"'{line}' needs Python")
-        if word[1] == "produce":
-            branches.append((given, word[2]))
-            return True
-        if word[1] == "pass":
+def _whole(line, lines):
+    """A statement of Python with its block, or with the lines up to the end of its parentheses or its text."""
+    taken = [line, *_deeper(lines, _indent(line))]
+    for count in range(min(len(lines), _LONGEST) + 1):
+        text = "\n".join([*taken, *(more for _, more in lines[:count])])
+        try:
+            ast.parse(text)
+        except (SyntaxError, ValueError):
             continue
-        condition, _, rest = _before_colon(word[2])
-        inner = [(indent + 1, rest.strip())] if rest.strip() else _deeper(indent, block)
-        del block[: 0 if rest.strip() else len(inner)]
-        if word[1] == "if":
-            denied, always = [], True
-        own = [(False, condition.strip())] if condition.strip() else []
-        if not _find_branches(inner, given + denied + own, branches):
-            denied, always = denied + [(True, condition.strip())], False
-        if word[1] == "else" and always:
-            return True
-    return False
+        if re.match(r"\s*(elif|else|except|finally)\b", lines[count][1] if count < len(lines) else ""):
+            continue
+        del lines[:count]
+        return text
+    return "\n".join(taken)

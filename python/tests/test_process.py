@@ -102,3 +102,30 @@ def test_the_name_of_a_kind_is_the_process_with_its_defaults_and_other_things_ar
     assert "voxel" in str(pytest.raises(es.Error, lambda: es.World(es.Scene(model, {"light": "voxel-shad"}))).value)
     with pytest.raises(es.Error, match="'light' is of type int"):
         es.Scene(model, {"light": 3})
+
+
+def test_numbers_that_are_returned_are_refused_and_answers_that_are_written_count():
+    class Returns(es.Process):
+        def answer(self, queries, answers):
+            return numpy.log1p(queries.position[:, 1])
+
+    with pytest.raises(TypeError, match="returned ndarray.*write into `answers`"):
+        list(es.World(scene(Returns())).run())
+
+    class WritesAndReturns(Wind):
+        def answer(self, queries, answers):
+            super().answer(queries, answers)
+            return answers
+
+    *_, frame = es.World(scene(WritesAndReturns())).run()
+    assert [len(plant) for plant in frame.plants] == [6, 6]
+
+
+def test_a_process_that_gives_its_answers_another_shape_answers_the_same():
+    class Reshapes(Wind):
+        def answer(self, queries, answers):
+            super().answer(queries, answers)
+            answers.shape = (1, answers.size)
+
+    *_, frame = es.World(scene(Reshapes())).run()
+    assert [len(plant) for plant in frame.plants] == [6, 6]

@@ -18,7 +18,8 @@ public:
     }
 
     int run() override {
-        const std::string model = language::translated(file_).text;
+        const auto [model, origins, warnings] = language::translated(file_);
+        for (const Diagnostic& warning : warnings) fmt::print(stderr, "{}\n", to_string(warning));
         if (output_.empty()) {
             fmt::print("{}", model);
         } else {

@@ -28,6 +28,7 @@ std::shared_ptr<const Model> read(TranslatedText text, const std::string& name, 
     model->path = path;
     model->arithmetic = options.arithmetic;
     model->resources = options.resources;
+    if (options.warnings) options.warnings->insert(options.warnings->end(), text.warnings.begin(), text.warnings.end());
     try {
         const std::uint32_t file = sources.add(name, std::move(text));
         const language::Preprocessed source = language::preprocess(sources, file, folder, options, mistakes);

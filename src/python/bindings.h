@@ -68,6 +68,19 @@ py::array view(const std::shared_ptr<Owner>& owner, const T* first, std::vector<
     return array;
 }
 
+/// Lets the classes of a module refuse objects whose __init__ never ran, as `Class.__new__(Class)` gives them: pybind11
+/// would hand out memory that nothing was made in.
+inline void refuse_unmade(const py::module_& module) {
+    for (const auto& [name, value] : py::cast<py::dict>(module.attr("__dict__"))) {
+        if (!PyType_Check(value.ptr())) continue;
+        auto* const bound = py::detail::get_type_info(reinterpret_cast<PyTypeObject*>(value.ptr()));
+        if (bound == nullptr) continue;
+        bound->operator_new = [](std::size_t) -> void* {
+            throw py::type_error("the object was never made: its __init__ did not run");
+        };
+    }
+}
+
 void bind_errors(py::module_& module);
 void bind_model(py::module_& module);
 void bind_field(py::module_& module);

@@ -11,6 +11,7 @@ PYBIND11_MODULE(_espalier, module) {
     bind_field(module);
     bind_scene(module);
     bind_world(module);
+    refuse_unmade(module);
 }
 
 }  // namespace espalier::python

@@ -77,21 +77,31 @@ public:
             py::arg("identity") = numbers_of(queries, &Query::identity),
             py::arg("plant") = numbers_of(queries, &Query::plant), py::arg("parameters") = values_of(answers),
             py::arg("step") = world.step, py::arg("time") = world.time, py::arg("dt") = world.dt);
-        ask(batch, values);
+        const py::ssize_t columns = values.shape(1);  // as they are: Python may give the array another shape
         const double* row = values.data();
+        ask(batch, values);
         for (const Answer& answer : answers) {
             std::copy_n(row, answer.size(), answer.begin());
-            row += values.shape(1);
+            row += columns;
         }
     }
     std::pair<int, int> query_arity() const override { return {1, std::numeric_limits<int>::max()}; }
 
 private:
+    static void refuse(const py::object& returned) {
+        const std::string type = py::str(py::type::of(returned).attr("__name__"));
+        PyErr_SetString(PyExc_TypeError, ("answer() returned " + type +
+                                          ", which nothing uses: write into `answers`, as in answers[:, 0] = ...")
+                                             .c_str());
+        throw py::error_already_set();
+    }
+
     // The exchange tells what failed as text; the exception itself, with its traceback, is raised by the caller.
     void ask(const py::object& batch, const Rows& values) {
         error_of_process().reset();
         try {
-            process_.attr("answer")(batch, values);
+            const py::object returned = process_.attr("answer")(batch, values);
+            if (!returned.is_none() && !returned.is(values)) refuse(returned);
         } catch (const py::error_already_set& error) {
             error_of_process() = std::make_unique<py::error_already_set>(error);
             const std::string told = error.what();

@@ -11,7 +11,7 @@ namespace espalier::python {
 namespace {
 
 /// A world that one thread of Python uses at a time.
-struct BoundWorld {
+struct BoundWorld : std::enable_shared_from_this<BoundWorld> {
     explicit BoundWorld(const Scene& scene) : world(scene, default_memory()) {}
 
     World world;
@@ -74,11 +74,11 @@ struct BoundFrame {
     std::vector<BoundPlant> plants;
 };
 
-BoundFrame frame_of(const std::shared_ptr<BoundWorld>& bound) {
-    const Turn turn(*bound);
-    if (!bound->started) throw UserError("the world has no frame yet: call start()");
-    const Frame frame = bound->world.frame();
-    BoundFrame result{bound, frame.step, frame.time, {}};
+BoundFrame frame_of(BoundWorld& bound) {
+    const Turn turn(bound);
+    if (!bound.started) throw UserError("the world has no frame yet: call start()");
+    const Frame frame = bound.world.frame();
+    BoundFrame result{bound.shared_from_this(), frame.step, frame.time, {}};
     for (const PlantFrame& plant : frame.plants) {
         // The model of a plant that grows anew in every step is gone with the step.
         const auto model = std::make_shared<const Model>(*plant.model);

@@ -4,6 +4,7 @@
 #include "docs/page.h"
 #include "temporary_folder.h"
 
+#include <fstream>
 #include <sys/wait.h>
 
 namespace {
@@ -240,8 +241,17 @@ TEST_CASE("the installed program finds its models and environments wherever it i
 
 TEST_CASE("what is installed does not know where it was built", "[library]") {
     const Installed& installed = Installed::once();
-    const Outcome found = shell("grep -rlF '" ESPALIER_SOURCE_DIR "' .", installed.prefix());
-    CHECK(found.text == "");
+    // As a path of its own: a clone at /espalier is no part of share/espalier.
+    const auto files_with = [&](const std::string& path) {
+        const std::string pattern = "(?<![\\w.~-])\\Q" + path + "\\E(?![\\w-])";
+        return shell("LC_ALL=C grep -rlP '" + pattern + "' .", installed.prefix()).text;
+    };
+    for (const char* path : {ESPALIER_BUILD_DIR, ESPALIER_SOURCE_DIR "/src", ESPALIER_SOURCE_DIR "/include"}) {
+        CHECK(files_with(path) == "");
+    }
+    std::ofstream(installed.prefix() / "share/espalier/left-behind") << "'" ESPALIER_BUILD_DIR "/main.cpp'\n";
+    CHECK_THAT(files_with(ESPALIER_BUILD_DIR), Catch::Contains("left-behind"));
+    fs::remove(installed.prefix() / "share/espalier/left-behind");
 }
 
 TEST_CASE("the growing half is configured on a machine without VTK", "[library]") {

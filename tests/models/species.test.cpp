@@ -19,13 +19,17 @@ struct GrownSpecies {
     ModuleString string;
     PlantGeometry geometry;
 
-    explicit GrownSpecies(const std::string& lines)
+    explicit GrownSpecies(const std::string& lines, std::uint64_t seed = 0, const glm::dvec3& foot = glm::dvec3(0))
         : model(read_model_text(registered<NotationType>().at("species")->translate(lines, "tree.species").text,
                                 "tree")) {
-        Derivation derivation(compile(model), {});
+        DerivationSettings settings;
+        settings.seed = seed;
+        Derivation derivation(compile(model), settings);
         derivation.start(string);
+        TurtleSettings turtle;
+        turtle.pose.position = foot;
         for (double step = 0; step <= derivation.length(); ++step) {
-            Interpretation look = interpret(*model, string, {}, &derivation);
+            Interpretation look = interpret(*model, string, turtle, &derivation);
             write_turtle_answers(look, string);
             geometry = std::move(look.geometry);
             ModuleString next;
@@ -38,6 +42,35 @@ struct GrownSpecies {
 
     std::vector<std::vector<double>> wood(int level) const {
         return parameters_of(string, model->alphabet, fmt::format("Wood{}", level));
+    }
+
+    /// From the base of each half of a leaf to its tip.
+    struct Half {
+        glm::dvec3 base, along;
+    };
+    std::vector<Half> halves() const {
+        std::vector<Half> found;
+        for (const Polygon& polygon : geometry.polygons) {
+            const auto at = [&](std::size_t k) { return glm::dvec3(geometry.vertices[polygon.first + k]); };
+            found.push_back({at(0), at(polygon.count - 1) - at(0)});
+        }
+        return found;
+    }
+
+    struct Leaf {
+        glm::dvec3 base, along, upper;
+    };
+    /// Each of two halves, of which the first is the right one.
+    std::vector<Leaf> leaves() const {
+        std::vector<Leaf> found;
+        const std::vector<Half> all = halves();
+        for (std::size_t k = 0; k < all.size(); k += 2) {
+            const auto& vertices = geometry.vertices;
+            const std::size_t first = geometry.polygons[k].first + 2, second = geometry.polygons[k + 1].first + 2;
+            const glm::dvec3 across = glm::dvec3(vertices[second]) - glm::dvec3(vertices[first]);
+            found.push_back({all[k].base, all[k].along, glm::normalize(glm::cross(across, all[k].along))});
+        }
+        return found;
     }
 };
 
@@ -280,6 +313,159 @@ TEST_CASE("species: leaves have two halves, three leaflets six; a fan stands at 
     for (const Polygon& polygon : fan.geometry.polygons) {
         CHECK(glm::distance(fan.geometry.vertices[polygon.first], {0, 2, 0}) < 1e-9);
     }
+}
+
+TEST_CASE("species: leaves with LeafBend 1 lie level and look away from the trunk, as far as they can", "[species]") {
+    const std::string tree =
+        "Levels = 2\nScale = 4\nRatio = 0.01\n1Branches = 12\n1Length = 0.4\n1DownAngle = 70\n2DownAngle = 50\n"
+        "Leaves = 10\nLeafScale = 0.1\n";
+    const auto mean_slope = [&](const std::string& bend) {
+        double sum = 0;
+        const auto halves = GrownSpecies(tree + bend).halves();
+        REQUIRE(halves.size() == GrownSpecies(tree).geometry.polygons.size());
+        for (const auto& half : halves) {
+            CHECK(glm::length(half.along) == Approx(0.1).epsilon(1e-3));
+            sum += std::abs(half.along.y) / 0.1;
+        }
+        return sum / static_cast<double>(halves.size());
+    };
+    CHECK(mean_slope("LeafBend = 1\n") < 1e-4);
+    CHECK(mean_slope("LeafBend = 0.5\n") < 0.8 * mean_slope(""));
+    CHECK(mean_slope("LeafBend = 0.5\n") > 0.1);
+    CHECK(mean_slope("LeafOrient = 0.5\n") == mean_slope("LeafBend = 0.5\n"));
+}
+
+TEST_CASE("species: LeafBend turns leaves as section 4.9 of the paper says, wherever the tree stands", "[species]") {
+    const std::string lines =
+        "Levels = 2\nScale = 4\nRatio = 0.01\n1Branches = 9\n1Length = 0.4\n1DownAngle = 70\n1Curve = 30\n"
+        "2DownAngle = 50\nLeaves = 8\nLeafScale = 0.1\nLeafBend = ";
+    const auto before = GrownSpecies(lines + "0\n").leaves();
+    for (const double bend : {0.3, 0.7, 1.0}) {
+        for (const glm::dvec3 foot : {glm::dvec3(0), glm::dvec3(5, 1, -7)}) {
+            const auto after = GrownSpecies(lines + std::to_string(bend) + "\n", 0, foot).leaves();
+            REQUIRE(after.size() == before.size());
+            for (std::size_t k = 0; k < before.size(); ++k) {
+                CHECK(glm::distance(after[k].base, before[k].base + foot) < 1e-6);
+                // Azimuths of the leaf's middle and of its upper side, as the paper's theta.
+                const glm::dvec3 middle = before[k].base + 0.5 * before[k].along, upper = before[k].upper;
+                double theta = std::atan2(middle.z, middle.x) - std::atan2(upper.z, upper.x);
+                theta = bend * std::remainder(theta, 2 * std::numbers::pi);
+                const auto around = [theta](const glm::dvec3& v) {
+                    return glm::dvec3(v.x * std::cos(theta) - v.z * std::sin(theta), v.y,
+                                      v.x * std::sin(theta) + v.z * std::cos(theta));
+                };
+                const glm::dvec3 along = around(before[k].along), face = around(upper) * glm::length(along);
+                const double lift = bend * std::atan2(along.y, face.y);
+                const glm::dvec3 expected = along * std::cos(lift) - face * std::sin(lift);
+                CHECK(glm::distance(after[k].along, expected) < 1e-4);
+            }
+        }
+    }
+    CHECK_FALSE(GrownSpecies(lines + "0\n").model->alphabet.find("LeafBud", 0));  // then no leaf asks
+}
+
+TEST_CASE("species: a stalk of LeafStemLen leaf lengths stands between stem and leaf", "[species]") {
+    const std::string tree = "Levels = 1\nScale = 2\nLeaves, LeafScale = 7, 0.3\n";
+    const auto sessile = GrownSpecies(tree).halves(), stalked = GrownSpecies(tree + "LeafStemLen = 0.5\n").halves();
+    REQUIRE(sessile.size() == stalked.size());
+    for (std::size_t k = 0; k < sessile.size(); ++k) {
+        CHECK(glm::distance(stalked[k].base, sessile[k].base + 0.5 * sessile[k].along) < 1e-4);
+    }
+}
+
+TEST_CASE("species: LeafDistrib and LeafQuality say how many leaves stand where", "[species]") {
+    const std::string tree = "Levels = 2\nScale = 5\n1Branches = 10\nBaseSize = 0\nLeaves = 100\n";
+    for (const int shape : {0, 3, 4, 6}) {
+        double expected = 0;
+        for (int j = 0; j < 10; ++j) expected += std::floor(100 * published_shape(shape, (j + 0.5) / 10) + 0.5);
+        const GrownSpecies grown(tree + fmt::format("LeafDistrib = {}\n", shape));
+        CHECK(static_cast<double>(grown.geometry.polygons.size()) == 2 * expected);
+    }
+    const GrownSpecies few(tree + "LeafDistrib = 3\nLeafQuality = 0.25\n");
+    CHECK(few.geometry.polygons.size() == 2 * 10 * 25);
+    CHECK(glm::length(few.halves()[0].along) == Approx(0.15 / std::sqrt(0.25)).epsilon(1e-3));
+}
+
+TEST_CASE("species: negative splits are at random, from none to that many, each as often", "[species]") {
+    std::map<std::size_t, int> stems;
+    for (std::uint64_t seed = 0; seed < 400; ++seed) {
+        const GrownSpecies tree("Levels = 1\n0CurveRes = 2\n0BaseSplits = -3\n0SplitAngle = 30\n", seed);
+        std::size_t tops = 0;
+        for (const auto& wood : tree.wood(0)) tops += wood[0] == 1;
+        ++stems[tops];
+    }
+    REQUIRE(stems.size() == 4);
+    double chi_square = 0;
+    for (const auto& [tops, count] : stems) chi_square += std::pow(count - 100.0, 2) / 100;
+    CHECK(chi_square < 16.3);  // 3 degrees of freedom, p = 0.001
+    int clones = 0;
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+        const GrownSpecies tree("Levels = 1\n0CurveRes = 2\n0SegSplits = -1\n0SplitAngle = 30\n", seed);
+        clones += static_cast<int>(tree.wood(0).size()) - 2;
+    }
+    CHECK(clones == Approx(100).margin(25));
+}
+
+TEST_CASE("species: children stand where BaseSize and BranchDist of their level say", "[species]") {
+    const auto places = [](const std::string& lines) {
+        const GrownSpecies tree("Levels = 2\nScale = 10\nBaseSize = 0\n0CurveRes = 4\n1Branches = 12\n" + lines);
+        std::vector<double> found;
+        for (const Internode& internode : tree.geometry.internodes) {
+            const bool is_first = internode.order == 1 && std::hypot(internode.base.x, internode.base.z) < 1e-6;
+            if (is_first) found.push_back(internode.base.y);
+        }
+        std::set<double> heights;
+        for (const double height : found) heights.insert(std::round(1e6 * height) / 1e6);
+        return heights;
+    };
+    CHECK(places("1BranchDist = 0\n1CurveRes = 1\n") == std::set<double>{0, 2.5, 5, 7.5});
+    CHECK(places("1CurveRes = 1\n").size() > 6);
+    const std::string deep =
+        "Levels = 2\n1CurveRes = 3\n2DownAngle = 40\nLeaves, LeafScale = 12, 0.02\n1Branches = 1\n"
+        "1Length = 0.5\nScale = 10\nBaseSize = 0.5\n";
+    const GrownSpecies even(deep), bare(deep + "1BaseSize = 0.5\n");
+    double nearest = 9, nearest_bare = 9;
+    const auto nearer = [](const GrownSpecies& tree, double& least) {
+        for (const auto& half : tree.halves()) least = std::min(least, std::hypot(half.base.x, half.base.z));
+    };
+    nearer(even, nearest);
+    nearer(bare, nearest_bare);
+    CHECK(nearest_bare > 3 * nearest);
+}
+
+TEST_CASE("species: nScale thickens stems, and nBendV bends them to their sides at random", "[species]") {
+    const std::string tree = "Levels = 2\nScale = 10\n1Branches = 10\n1Length = 0.3\n1CurveRes = 8\n";
+    const auto thin = GrownSpecies(tree).wood(1), thick = GrownSpecies(tree + "1Scale = 1.5\n").wood(1);
+    CHECK(thick[0][2] == Approx(1.5 * thin[0][2]));
+    const auto turned = [](const GrownSpecies& bent) {
+        const auto& internodes = bent.geometry.internodes;
+        return degrees_between(direction_of(internodes[1]), direction_of(internodes.back()));
+    };
+    double most = 0;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        const std::string stem = "Levels = 1\n0CurveRes = 8\n";
+        CHECK(turned(GrownSpecies(stem, seed)) == Approx(0).margin(1e-5));
+        const double angle = turned(GrownSpecies(stem + "0BendV = 80\n", seed));
+        CHECK(angle < 80);
+        most = std::max(most, angle);
+    }
+    CHECK(most > 15);
+}
+
+TEST_CASE("species: pruned stems that bend to their sides stay in the envelope", "[species]") {
+    const GrownSpecies tree(
+        "Levels = 2\nScale = 10\n1Branches = 30\n1Length = 0.8\n1CurveRes = 6\n1BendV = 120\nPruneRatio = 1\n"
+        "PruneWidth, PruneWidthPeak = 0.3, 0.5\n0CurveRes = 3\n");
+    int inside = 0;
+    for (const Internode& internode : tree.geometry.internodes) {
+        if (internode.order == 0) continue;
+        const double ratio = (10 - internode.tip.y) / (10 - 2.5);
+        const double limit =
+            ratio <= 0 || ratio >= 1 ? 0 : 10 * 0.3 * std::pow(ratio < 0.5 ? ratio / 0.5 : (1 - ratio) / 0.5, 0.5);
+        CHECK(std::hypot(internode.tip.x, internode.tip.z) <= limit + 1e-6);
+        inside += 1;
+    }
+    CHECK(inside > 60);
 }
 
 TEST_CASE("species: the surface of a trunk has lobes of the depth that was set", "[species]") {

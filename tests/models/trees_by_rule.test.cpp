@@ -150,6 +150,28 @@ TEST_CASE("unequal-flow: the more unequal the flow, the longer the longest path;
     for (std::size_t i = 0; i < left.size(); ++i) CHECK(left[i] == Approx(right[i]));
 }
 
+TEST_CASE("unequal-flow: tips become fewer over the published shares, but not from each share to the next", "[trees]") {
+    // What a tip with so much material ends as: the split written as a recursion.
+    const auto expected = [](double share, int units) {
+        std::vector<int> tips(static_cast<std::size_t>(units) + 1, 1);
+        for (int q = 2; q <= units; ++q) {
+            const int second = static_cast<int>(std::floor(share * (q - 1) + 0.5)), first = q - 1 - second;
+            tips[static_cast<std::size_t>(q)] =
+                tips[static_cast<std::size_t>(second)] + (first > 0 ? tips[static_cast<std::size_t>(first)] : 0);
+        }
+        return tips.back();
+    };
+    std::map<double, int> found;
+    for (const double share : {0.5, 0.6, 0.667, 0.83, 0.9, 0.95, 0.99, 1.0}) {
+        LonePlant tree("models/trees/unequal-flow.l", {{"F2", std::to_string(share)}});
+        tree.grow(256);
+        found[share] = static_cast<int>(tree.counts()["T"]);
+        CHECK(found[share] == expected(share, 255));
+    }
+    CHECK(std::vector{found[0.5], found[0.667], found[0.9], found[1]} == std::vector{128, 114, 80, 1});
+    CHECK(std::vector{found[0.6], found[0.95], found[0.99]} == std::vector{103, 46, 85});
+}
+
 TEST_CASE("buds: without death an axis has binomially many internodes, each with one leaf", "[trees]") {
     const int ticks = 20, runs = 2000;
     std::vector<int> found(ticks + 1, 0);

@@ -243,6 +243,102 @@ TEST_CASE("what derivation reads is derived again", "[studio]") {
     }
 }
 
+// It asks for light, and its stages take settings of the model.
+const char* const asking_tree = R"(#define STEM 1   /* length of the stem; 0..9; m */
+#define SHARE 0.7
+environment light;
+lsystem: 1
+derivation length: 5
+axiom: A(1)?light(1)
+A(l) ?light(q) : q > 0.2 --> F(l) [ +(30) A(l * SHARE)?light(1) ] /(90) A(l * SHARE)?light(1)
+homomorphism
+F(l) --> !(0.05) F(l)
+endlsystem
+)";
+
+const char* const asking_scene = R"([simulation]
+seed = 3
+[[plant]]
+model = "asking.l"
+[[plant.stage]]
+stage = "stem"
+length = "= STEM"
+[[plant.stage]]
+stage = "pipe-radii"
+exponent = 2
+[environment.light]
+process = "voxel-shade"
+voxel = 0.5
+)";
+
+TEST_CASE("what stages draw of plants that ask is drawn again without a step, where no process reads it", "[studio]") {
+    const TemporaryFolder folder;
+    const fs::path model = folder.write("asking.l", asking_tree);
+    Grower grower(folder.write("scene.toml", asking_scene));
+    const auto first = grower.grow(asking_scene, nullptr, 5, 0);
+    REQUIRE(first->is_whole);
+    CHECK(first->watcher.derived == 6);
+    const Growth* before = first->growth.get();
+    const auto defined = with(asking_scene, "asking.l\"", "asking.l\"\ndefine = { STEM = 3 }");
+    std::vector<std::unique_ptr<Grower::Grown>> kept;
+    for (const std::string& text :
+         {with(asking_scene, "\"= STEM\"", "2"), with(asking_scene, "exponent = 2", "exponent = 3"), defined,
+          with(asking_scene, "[[plant.stage]]", "[[plant.stage]]\nwhen = false"),
+          with(asking_scene, "[environment.light]", "# a remark\n[environment.light]")}) {
+        INFO(text);
+        kept.push_back(grower.grow(text, before, 5));
+        const auto anew = grower.grow(text, nullptr, 5, 0);
+        REQUIRE(kept.back()->is_whole);
+        CHECK(kept.back()->watcher.derived == 0);
+        check_same(*kept.back(), *anew);
+        for (int step = 0; step <= 5; ++step) {
+            const auto field = [&](const Growth& growth) { return growth.field(step, "light").substr(8); };
+            CHECK((field(*kept.back()->growth) == field(*anew->growth)));
+        }
+        before = kept.back()->growth.get();  // the next is drawn from what was drawn again
+    }
+    // The stem moved what is drawn by one vector.
+    const auto height = [](const Grower::Grown& grown) {
+        const std::string rows = grown.watcher.statistics.substr(grown.watcher.statistics.rfind("\n5,"));
+        std::vector<std::string> cells;
+        for (std::size_t at = 0; at < rows.size(); at = std::min(rows.find(',', at), rows.size() - 1) + 1) {
+            cells.push_back(rows.substr(at, rows.find(',', at) - at));
+        }
+        return std::stod(cells.at(9));
+    };
+    CHECK(height(*kept[0]) == Approx(height(*first) + 1));
+    CHECK(height(*kept[2]) == Approx(height(*first) + 2));
+}
+
+TEST_CASE("what comes back to the strings of plants that ask is grown anew", "[studio]") {
+    const TemporaryFolder folder;
+    folder.write("asking.l", asking_tree);
+    folder.write("other.l", with(asking_tree, "!(0.05)", "!(0.06)"));
+    folder.write("longer.l", with(asking_tree, "length: 5", "length: 7"));
+    Grower grower(folder.write("scene.toml", asking_scene));
+    const auto first = grower.grow(asking_scene, nullptr, 5, 0);
+    for (const std::string& text :
+         {with(asking_scene, "voxel = 0.5", "voxel = 0.4"), with(asking_scene, "seed = 3", "seed = 4"),
+          with(asking_scene, "asking.l\"", "asking.l\"\nposition = [1, 0, 0]"), with(asking_scene, "asking.l", "other.l"),
+          with(asking_scene, "asking.l\"", "asking.l\"\ndefine = { SHARE = 0.8 }"),
+          with(asking_scene, "voxel = 0.5", "voxel = 0.5\nstrength = 0.3")}) {
+        INFO(text);
+        const auto grown = grower.grow(text, first->growth.get(), 5);
+        REQUIRE(grown->is_whole);
+        CHECK(grown->watcher.derived == 6);
+        check_same(*grown, *grower.grow(text, nullptr, 5, 0));
+    }
+    // More steps than there are, and a process that reads what stages draw.
+    CHECK(grower.grow(with(asking_scene, "asking.l", "longer.l"), first->growth.get(), 7)->watcher.derived == 8);
+    const std::string lit =
+        with(asking_scene, "process = \"voxel-shade\"\nvoxel = 0.5", "process = \"canopy-light\"\nvoxel = 0.5");
+    const auto canopy = grower.grow(lit, nullptr, 5, 0);
+    if (canopy->is_whole) {
+        const auto again = grower.grow(with(lit, "exponent = 2", "exponent = 3"), canopy->growth.get(), 5);
+        CHECK(again->watcher.derived == 6);
+    }
+}
+
 TEST_CASE("settings of every model and scene of the library show the same, redrawn or grown anew", "[studio]") {
     int redrawn = 0, derived = 0;
     for (const fs::path& file : library()) {

@@ -21,7 +21,8 @@ struct TranslatedText {
     };
 
     std::string text;
-    std::vector<Origin> origins = {};  ///< in the order of the text
+    std::vector<Origin> origins = {};       ///< in the order of the text
+    std::vector<Diagnostic> warnings = {};  ///< of what the file says and the text does not
 };
 
 /// What a file of src/language/notations/ registers: a translator into the language of models.

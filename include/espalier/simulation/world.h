@@ -84,8 +84,8 @@ public:
     /// After write_axioms() or derive().
     DerivedStep derived() const;
     /// Instead of write_axioms() or derive(): the world is as it was when `derived` was taken, of this scene or of one
-    /// that derives alike. For scenes without processes whose plants neither ask nor grow anew in every step: others
-    /// have more to remember, see save().
+    /// that derives alike. It can go on from there in scenes without processes whose plants neither ask nor grow anew
+    /// in every step. Others have more to remember, see save(): they may only be interpreted.
     void take(const DerivedStep& derived);
 
     /// Before save(), on all ranks: the first one gets what the others hold, part by part, into a file without a name
@@ -110,6 +110,8 @@ public:
     const StageTimes& times() const;
     /// The frame of the current step. Its fields are valid until the next.
     Frame frame() const;
+    /// The same without what processes know: after take() they know nothing of the step.
+    Frame frame_of_plants() const;
     // Valid until the next step.
     const ModuleString& string(std::size_t plant) const;
     const Interpretation& interpretation(std::size_t plant) const;

@@ -7,11 +7,12 @@ namespace espalier::app {
 MeshFileOptions::MeshFileOptions(CLI::App& command, int sides, const std::string& group) : sides_(sides) {
     const std::string before = command.option_defaults()->get_group();
     command.option_defaults()->group(group);
-    command
-        .add_option("--sides", sides_,
-                    "number of corners of the rings of tubes; spheres and discs have the sides that were drawn")
-        ->check(CLI::Range(3, 256))
-        ->capture_default_str();
+    sides_option_ =
+        command
+            .add_option("--sides", sides_,
+                        "number of corners of the rings of tubes; spheres and discs have the sides that were drawn")
+            ->check(CLI::Range(3, 256))
+            ->capture_default_str();
     command
         .add_option("--simplify", simplify_,
                     "leave out nodes of axes if middle line and radius change by at most so many metres")

@@ -19,9 +19,11 @@ public:
 
     /// What was said of the meshes; files are none's yet. Throws UserError for what does not go together.
     void put_into(ExportJob& job) const;
+    bool says_sides() const { return sides_option_->count() > 0; }
 
 private:
     int sides_;
+    CLI::Option* sides_option_;
     double simplify_ = 0, distance_ = 0;
     std::optional<std::size_t> triangles_;
     std::size_t most_vertices_ = 0;

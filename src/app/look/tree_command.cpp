@@ -34,7 +34,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* scene_file = "environments/tree.toml";
-constexpr int fewest_sides = 3;  // few vertices, as in Brzoska 2019, section 5.1
+constexpr int fewest_sides = 3;   // few vertices, as in Brzoska 2019, section 5.1
+constexpr int sides_if_bare = 6;  // with half of the triangles, tubes that have sides to lose keep their outline
 
 /// What can be said of the tree, and how: found where the program's scenes and models are.
 struct TreeKind {
@@ -182,6 +183,7 @@ private:
             text += fmt::format("  {:{}}  {}\n", name, width, describe_file(kind_->preset(name)).summary);
         }
         return text + R"(
+Without --sides, branches of a tree without leaves have 6 sides.
 An option counts more than --settings, and that more than --preset. A file that is there stays: a new one is numbered.
 Examples:
   espalier tree --output oak.obj
@@ -262,6 +264,7 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
         };
         ExportJob job{run, {&frame, 1}, {}, target.folder, report, target.name};
         mesh_.put_into(job);
+        if (!mesh_.says_sides() && frame->geometry->polygons.size() == 0) job.options.sides = sides_if_bare;
         job.counts = job.counts || target.counts;
         job.keep = true;
         export_run(job, std::vector{target.format});

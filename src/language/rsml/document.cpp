@@ -2,15 +2,12 @@
 
 #include "base/number.h"
 #include "base/text.h"
+#include "base/xml_reader.h"
 
-#include <climits>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <exception>
-#include <expat.h>
 #include <map>
-#include <memory>
 
 namespace espalier::language::rsml {
 namespace {
@@ -26,64 +23,18 @@ struct RawRoot {
     std::optional<double> diameter;
 };
 
-class Reader {
+class Reader final : public XmlReader {
 public:
-    Reader(const std::string& name) : name_(name), parser_(XML_ParserCreate(nullptr), XML_ParserFree) {
-        XML_SetUserData(parser_.get(), this);
-        XML_SetElementHandler(
-            parser_.get(),
-            [](void* self, const char* element, const char** attributes) {
-                static_cast<Reader*>(self)->guarded([&](Reader& reader) { reader.begin(element, attributes); });
-            },
-            [](void* self, const char* element) {
-                static_cast<Reader*>(self)->guarded([&](Reader& reader) { reader.end(element); });
-            });
-        XML_SetCharacterDataHandler(parser_.get(), [](void* self, const char* text, int length) {
-            static_cast<Reader*>(self)->text_.append(text, static_cast<std::size_t>(length));
-        });
-        XML_SetEntityDeclHandler(parser_.get(), [](void* self, const char*, int, const char*, int, const char*,
-                                                   const char*, const char*, const char*) {
-            static_cast<Reader*>(self)->guarded([](Reader& reader) { reader.fail("entities are not read here"); });
-        });
-    }
+    explicit Reader(const std::string& name) : XmlReader(name) {}
 
     Document read(const std::string& text) {
-        if (text.size() > INT_MAX) fail("this file is too long");
-        const XML_Status status = XML_Parse(parser_.get(), text.data(), static_cast<int>(text.size()), 1);
-        if (mistake_) std::rethrow_exception(mistake_);
-        if (status != XML_STATUS_OK) fail(XML_ErrorString(XML_GetErrorCode(parser_.get())));
+        parse(text);
         if (!is_rsml_) fail("this is no RSML file: its outermost element is not <rsml>");
         if (roots_.empty()) fail("this file has no roots");
         return finished();
     }
 
 private:
-    /// No exception passes through expat.
-    template <class Work>
-    void guarded(Work work) {
-        if (mistake_) return;
-        try {
-            work(*this);
-        } catch (...) {
-            mistake_ = std::current_exception();
-            XML_StopParser(parser_.get(), XML_FALSE);
-        }
-    }
-
-    Place here() const {
-        return {name_, static_cast<int>(XML_GetCurrentLineNumber(parser_.get())),
-                static_cast<int>(XML_GetCurrentColumnNumber(parser_.get())) + 1};
-    }
-
-    [[noreturn]] void fail(const std::string& message) const { throw UserError(here(), message); }
-
-    static std::string attribute(const char** attributes, const std::string& name) {
-        for (; *attributes; attributes += 2) {
-            if (name == attributes[0]) return attributes[1];
-        }
-        return "";
-    }
-
     double number(const std::string& text, const std::string& what) const {
         const std::vector<std::string> words = words_of(text, " \t\r\n");
         const std::optional<double> value = words.size() == 1 ? finite_number(words[0]) : std::nullopt;
@@ -91,34 +42,33 @@ private:
         return *value;
     }
 
-    void begin(const std::string& element, const char** attributes) {
-        text_.clear();
+    void begin(const std::string& element, const XmlAttributes& attributes) override {
         if (element == "rsml") is_rsml_ = true;
         if (element == "root") return begin_root(attributes);
         if (open_.empty()) return;
         RawRoot& root = roots_[open_.back()];
         if (element == "point") {
-            const std::string z = attribute(attributes, "z");
+            const std::string z = attributes.value("z");
             flat_ = flat_ && z.empty();
-            root.points.emplace_back(number(attribute(attributes, "x"), "x"), number(attribute(attributes, "y"), "y"),
+            root.points.emplace_back(number(attributes.value("x"), "x"), number(attributes.value("y"), "y"),
                                      z.empty() ? 0 : number(z, "z"));
         } else if (element == "function") {
-            function_ = attribute(attributes, "name");
+            function_ = attributes.value("name");
         } else if (element == "sample") {
-            sample_ = attribute(attributes, "value");
+            sample_ = attributes.value("value");
         } else if (element == "parent-node") {
-            const double node = number(attribute(attributes, "value"), "parent-node");
+            const double node = number(attributes.value("value"), "parent-node");
             if (node >= 0) root.root.on_node = static_cast<std::size_t>(node);
         } else if (element == "diameter") {
-            const std::string value = attribute(attributes, "value");
+            const std::string value = attributes.value("value");
             if (!value.empty()) root.diameter = number(value, "diameter");
         }
     }
 
-    void begin_root(const char** attributes) {
+    void begin_root(const XmlAttributes& attributes) {
         RawRoot root;
         root.root.place = here();
-        root.root.label = attribute(attributes, "label");
+        root.root.label = attributes.value("label");
         if (!open_.empty()) {
             root.root.bearer = open_.back();
             root.root.order = roots_[open_.back()].root.order + 1;
@@ -128,23 +78,22 @@ private:
         roots_.push_back(std::move(root));
     }
 
-    void end(const std::string& element) {
+    void end(const std::string& element) override {
         if (element == "unit" && open_.empty() && !unit_) unit_ = trimmed_text();
-        if (element == "resolution" && open_.empty()) resolution_ = number(text_, "resolution");
+        if (element == "resolution" && open_.empty()) resolution_ = number(text(), "resolution");
         if (element == "up" && open_.empty()) up_ = trimmed_text();
         if (open_.empty()) return;
         if (element == "sample") {
-            roots_[open_.back()].functions[function_].push_back(number(sample_.empty() ? text_ : sample_, function_));
+            roots_[open_.back()].functions[function_].push_back(number(sample_.empty() ? text() : sample_, function_));
         }
         if (element == "root") {
             if (roots_[open_.back()].points.empty()) fail("this root has no points");
             open_.pop_back();
         }
-        text_.clear();
     }
 
     std::string trimmed_text() const {
-        const std::vector<std::string> words = words_of(text_, " \t\r\n");
+        const std::vector<std::string> words = words_of(text(), " \t\r\n");
         return words.empty() ? "" : words[0];
     }
 
@@ -153,7 +102,7 @@ private:
                                                          {"um", 1e-6}, {"inch", 0.0254}, {"dm", 0.1}};
         const auto found = units.find(unit_.value_or("cm"));
         if (found == units.end()) {
-            throw UserError(Place{name_, 1, 1},
+            throw UserError(Place{here().file, 1, 1},
                             fmt::format("the unit '{}' is no length: write m, cm, mm, um or inch as "
                                         "<unit>, and pixels per unit as <resolution>",
                                         *unit_));
@@ -201,12 +150,9 @@ private:
         return document;
     }
 
-    std::string name_;
-    std::unique_ptr<XML_ParserStruct, void (*)(XML_Parser)> parser_;
-    std::exception_ptr mistake_;
     std::vector<RawRoot> roots_;
     std::vector<std::size_t> open_;
-    std::string text_, function_, sample_, up_;
+    std::string function_, sample_, up_;
     std::optional<std::string> unit_;
     double resolution_ = 1;
     bool is_rsml_ = false, flat_ = true;

@@ -19,8 +19,6 @@ public:
     }
 
     void components() {
-        if (names_.empty() && mistakes_.none())
-            mistakes_.error({0, 1, 1}, "a skeleton needs at least one component: start[0, 1, 0, 0];");
         std::map<std::string, int> lines;
         for (const Component& component : skeleton_.components) {
             const auto [first, is_new] = lines.emplace(component.name, component.at.line);

@@ -78,15 +78,16 @@ private:
         in_.take();
     }
 
+    /// Features that are left out at the end are 0.
     void features(Component& component) {
         for (std::size_t k = 0; k < component.features.size(); ++k) {
-            if (k > 0 && !in_.looking_at(",")) {
-                in_.fail(
-                    fmt::format("',' and the {} of '{}': a component has a beginning, a length, a vertical and a "
-                                "horizontal angle",
-                                Component::feature_names[k], component.name));
+            if (k > 0 && in_.looking_at("]")) return;
+            if (k > 0 && !in_.accept(",")) {
+                in_.fail(fmt::format(
+                    "',' and the {} of '{}', or ']': a component has a beginning, a length, a vertical and a "
+                    "horizontal angle",
+                    Component::feature_names[k], component.name));
             }
-            if (k > 0) in_.take();
             component.features[k] =
                 attribute(fmt::format("the {} of '{}'", Component::feature_names[k], component.name));
         }

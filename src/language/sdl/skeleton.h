@@ -90,7 +90,7 @@ struct Skeleton {
     const Rule* rule_of(const std::string& master) const;
     /// That a component becomes; null for one that stays a line.
     const Fibre* fibre_of(const std::string& component) const;
-    /// The left side of the first rule, or the first component.
+    /// The left side of the first rule, or the first component, which there must be.
     const Component& start() const;
 };
 

@@ -175,6 +175,7 @@ private:
     // --- productions ------------------------------------------------------------------------------------------------
 
     std::string axiom() const {
+        if (skeleton_.components.empty()) return "*";
         const Component& start = skeleton_.start();
         std::string text = values(start, {"0", "0", "0"});
         for (const char* name : {"length", "vertical", "horizontal", "i"}) text = with_value(text, name, "0");
@@ -240,6 +241,7 @@ private:
 
     std::string declarations() const {
         std::string text;
+        if (skeleton_.components.empty()) return text;
         for (const Component& component : skeleton_.components) {
             text += (text.empty() ? "module " : ", ") + module(component.name) + formals(component.name);
         }
@@ -314,7 +316,14 @@ std::vector<const Fibre*> bearers(const Skeleton& skeleton, const std::string& c
 
 TranslatedText model_of(const Skeleton& skeleton, const std::string& file) {
     const std::string name = std::filesystem::path(file).filename().string();
-    return unmarked(Translation(skeleton, name).text(), {file});
+    TranslatedText translated = unmarked(Translation(skeleton, name).text(), {file});
+    if (skeleton.components.empty()) {
+        translated.warnings.push_back(
+            {Diagnostic::Severity::warning,
+             {file, 1, 1},
+             "this skeleton has no components, so nothing grows: define{ start[0, 1, 0, 0]; }"});
+    }
+    return translated;
 }
 
 }  // namespace espalier::language::sdl

@@ -7,12 +7,18 @@ namespace espalier::language::weber_penn {
 namespace {
 
 /// Statements that shorten the segments from the k-th on until the stem lies in the envelope.
-std::string pruning(int level) {
+std::string pruning(const TranslatedSpecies& species, int level) {
+    const std::string sideways = !species.sets("BendV", level) ? "" : R"(
+			side = i > 0 ? SIDE_<n>(i, seed) : 0;
+			qx = vy * wz - vz * wy; qy = vz * wx - vx * wz; qz = vx * wy - vy * wx;
+			vx = vx * cos(side) + qx * sin(side);
+			vy = vy * cos(side) + qy * sin(side);
+			vz = vz * cos(side) + qz * sin(side);)";
     std::string text = R"(	part = 1; inside = 0;
 	while (inside == 0 && part > 0.02) {
 		px = x; py = y; pz = z; vx = hx; vy = hy; vz = hz; wx = ux; wy = uy; wz = uz; i = k; inside = 1;
 		while (inside == 1 && i < CurveRes_<c>) {
-			bend = i > 0 ? BEND_<n>(i, seed, back, vy, wy) : 0;
+			bend = i > 0 ? BEND_<n>(i, seed, back, vy, wy) : 0;<sideways>
 			qx = vx * cos(bend) + wx * sin(bend); wx = wx * cos(bend) - vx * sin(bend); vx = qx;
 			qy = vy * cos(bend) + wy * sin(bend); wy = wy * cos(bend) - vy * sin(bend); vy = qy;
 			qz = vz * cos(bend) + wz * sin(bend); wz = wz * cos(bend) - vz * sin(bend); vz = qz;
@@ -24,7 +30,7 @@ std::string pruning(int level) {
 	}
 	segment = segment * (1 - PruneRatio * (1 - (inside == 0 ? 0 : part)));
 )";
-    return filled(text, {{"below", level == 0 ? "py - foot_y <= base || " : ""}});
+    return filled(text, {{"below", level == 0 ? "py - foot_y <= base || " : ""}, {"sideways", sideways}});
 }
 
 void write_bud(const TranslatedSpecies& species, int level, Rules& rules) {
@@ -41,7 +47,7 @@ void write_bud(const TranslatedSpecies& species, int level, Rules& rules) {
     rules.productions +=
         filled(std::string("?P(x, y, z) ?H(hx, hy, hz) ?U(ux, uy, uz) ") + ignored +
                    "?P(x, y, z) ?H(hx, hy, hz) ?U(ux, uy, uz) Bud<n>(length, radius, children) :\n\t{" + foot +
-                   "k = 0; back = 0; seed = ran(1000); segment = length / CurveRes_<c>;\n" + pruning(level) +
+                   "k = 0; back = 0; seed = ran(1000); segment = length / CurveRes_<c>;\n" + pruning(species, level) +
                    "\t} segment > 0 --> Node<n>(0, 0, 1, ran(360), segment, radius, children, seed, 0)\n"
                    "?P(x, y, z) ?H(hx, hy, hz) ?U(ux, uy, uz) Bud<n>(length, radius, children) --> *\n",
                species.words(level));
@@ -50,7 +56,7 @@ void write_bud(const TranslatedSpecies& species, int level, Rules& rules) {
 /// A clone turns away from its stem, the less the further the stem leans, and about the vertical.
 std::string split_production(const TranslatedSpecies& species, int level) {
     const std::string spread = "(2 * (i % 2) - 1) * (20 + 0.75 * (30 + abs(declination - 90)) * ran(1) ^ 2)";
-    const std::string at_base = level == 0 ? "k == 1 && BaseSplits_0 > 0 ? 360 * i / (clones + 1) : " : "";
+    const std::string at_base = level == 0 ? "k == 1 && BaseSplits_0 != 0 ? 360 * i / (clones + 1) : " : "";
     std::string text = R"(Split<n>(i, clones, <frame><at>, <stem>) : {
 	declination = acos(clamp(hy, -1, 1));
 	angle = max(0, SplitAngle_<c> + WITHIN(SplitAngleV_<c>) - declination);
@@ -64,10 +70,10 @@ std::string split_production(const TranslatedSpecies& species, int level) {
 	qy = hy * cos(angle) + uy * sin(angle); uy = uy * cos(angle) - hy * sin(angle); hy = qy;
 	qz = hz * cos(angle) + uz * sin(angle); uz = uz * cos(angle) - hz * sin(angle); hz = qz;
 )";
-    if (species.prunes()) text += pruning(level);
+    if (species.prunes()) text += pruning(species, level);
     text += "\t} ";
     text += species.prunes() ? "segment > 0" : "1";
-    text += " -->\n\t@R(<frame>) &(BEND_<n>(k, seed, back, hy, uy)) Node<n>(<stem>)\n";
+    text += " -->\n\t@R(<frame>) <side>&(BEND_<n>(k, seed, back, hy, uy)) Node<n>(<stem>)\n";
     if (species.prunes()) text += "Split<n>(i, clones, <frame><at>, <stem>) --> *\n";
     return text;
 }
@@ -91,19 +97,19 @@ void write_stem(const TranslatedSpecies& species, int level, Rules& rules) {
         rules.decomposition += filled(split_production(species, level), species.words(level));
     }
     const std::string helix = species.is_helix(level) ? "^(-CurveV_<c>) /(360 / CurveRes_<c>) &(-CurveV_<c>) " : "";
-    text += asked + " -->\n\t" + helix + "&(BEND_<n>(k, seed, back, hy, uy)) Node<n>(<stem>)\n";
+    text += asked + " -->\n\t" + helix + "<side>&(BEND_<n>(k, seed, back, hy, uy)) Node<n>(<stem>)\n";
     rules.productions += filled(text, species.words(level));
 }
 
 std::string child(const TranslatedSpecies& species, int level) {
-    if (species.is_last(level)) return "Leaf";
+    if (species.is_last(level)) return "<leaf>";
     return species.prunes() ? "<ask>Bud<m>(child, thickness, grandchildren)"
                             : "Bud<m>(child, thickness, grandchildren)";
 }
 
 std::string grandchildren(const TranslatedSpecies& species, int level) {
     if (species.is_last(level + 1))
-        return species.value("Leaves") == 0 ? "0" : "round(Leaves * TAPERED(place) * QUALITY)";
+        return species.value("Leaves") == 0 ? "0" : "round(Leaves * LEAVES_AT(place) * QUALITY)";
     const std::string number = fmt::format("Branches_{}", species.described(level + 2));
     return level == 0 ? "round(" + number + " * (0.2 + 0.8 * child / length / max(share, 1e-9)))"
                       : "round(" + number + " * (1 - 0.5 * place))";
@@ -124,7 +130,9 @@ std::string child_values(const TranslatedSpecies& species, int level) {
     text += "\tshare = Length_<d> + WITHIN(LengthV_<d>);\n";
     text += level == 0 ? "\tchild = length * share * SHAPE(" + top + ");\n"
                        : "\tchild = share * (length - 0.6 * offset);\n";
-    text += "\tthickness = min(radius * (max(0, child) / length) ^ RatioPower, RADIUS_<n>(radius, length, place));\n";
+    const std::string factor = species.sets("Scale", level + 1) ? "Scale_<d> * " : "";
+    text += "\tthickness = min(" + factor +
+            "radius * (max(0, child) / length) ^ RatioPower, RADIUS_<n>(radius, length, place));\n";
     return text + "\tgrandchildren = " + grandchildren(species, level) + ";\n";
 }
 
@@ -149,7 +157,7 @@ void write_node(const TranslatedSpecies& species, int level, Rules& rules) {
     if (!fan.empty()) {
         rules.decomposition += filled(
             "Fan(i, leaves) : i < leaves -->\n"
-            "\t[ +(Rotate_<d> * (i / max(1, leaves - 1) - 0.5)) &(DownAngle_<d>) Leaf ] Fan(i + 1, leaves)\n"
+            "\t[ +(Rotate_<d> * (i / max(1, leaves - 1) - 0.5)) &(DownAngle_<d>) <leaf> ] Fan(i + 1, leaves)\n"
             "Fan(i, leaves) --> *\n",
             species.words(level));
     }

@@ -52,9 +52,24 @@ std::string leaf_polygons(const Species& species, const std::string& size) {
     const int shape = static_cast<int>(species.value("LeafShape"));
     const double width = species.value("LeafScaleX");
     const Outline half = half_outline(shape);
-    if (shape != 5) return blade(half, width, size);
+    const std::string stalk = species.value("LeafStemLen") > 0 ? fmt::format("f(LeafStemLen * {}) ", size) : "";
+    if (shape != 5) return stalk + blade(half, width, size);
     const std::string leaflet = blade(half, width, "0.6 * " + size);
-    return fmt::format("f(0.4 * {}) {} [ +(70) {} ] [ -(70) {} ]", size, leaflet, leaflet, leaflet);
+    return stalk + fmt::format("f(0.4 * {}) {} [ +(70) {} ] [ -(70) {} ]", size, leaflet, leaflet, leaflet);
+}
+
+// Weber & Penn 1995, section 4.9: the leaf turns about the vertical, so that its upper side looks away from the trunk,
+// and about its width, so that it looks up as far as it can. The upper side is where the turtle's up points away from.
+std::string leaf_turns() {
+    return R"(?P(x, y, z) ?H(hx, hy, hz) ?U(ux, uy, uz) LeafBud : {
+	px = x - foot_x + LeafScale / 2 * hx;
+	pz = z - foot_z + LeafScale / 2 * hz;
+	around = ux ^ 2 + uz ^ 2 > 1e-12 ? atan2(pz, px) - atan2(-uz, -ux) : 0;
+	around = LeafBend * (around - 360 * floor(around / 360 + 0.5));
+	qx = hx * cos(around) - hz * sin(around); hz = hx * sin(around) + hz * cos(around); hx = qx;
+	rx = ux * cos(around) - uz * sin(around); uz = ux * sin(around) + uz * cos(around); ux = rx;
+	} 1 --> @R(hx, hy, hz, ux, uy, uz) &(LeafBend * atan2(hy, -uy)) Leaf
+)";
 }
 
 }  // namespace espalier::language::weber_penn

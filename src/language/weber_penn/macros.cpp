@@ -55,10 +55,16 @@ std::string bend(const TranslatedSpecies& species, int level) {
     return text + ")\n";
 }
 
-std::string splits_macro(int level) {
-    const std::string at_base = level == 0 ? "(k) == 1 && BaseSplits_0 > 0 ? BaseSplits_0 : " : "";
-    return "#define CLONES_<n>(k, seed) (" + at_base +
-           "floor(SegSplits_<c> * (k) + KEPT(seed, 0)) - floor(SegSplits_<c> * ((k) - 1) + KEPT(seed, 0)))\n";
+std::string splits_macro(const TranslatedSpecies& species, int level) {
+    const auto random = [](const std::string& most) { return "floor((1 - " + most + ") * KEPT(seed, (k) + 31))"; };
+    std::string at_base;
+    if (level == 0 && species.value("BaseSplits", 0) > 0) at_base = "(k) == 1 && BaseSplits_0 > 0 ? BaseSplits_0 : ";
+    if (level == 0 && species.value("BaseSplits", 0) < 0) at_base = "(k) == 1 ? " + random("BaseSplits_0") + " : ";
+    const std::string along =
+        species.value("SegSplits", level) < 0
+            ? random("SegSplits_<c>")
+            : "floor(SegSplits_<c> * (k) + KEPT(seed, 0)) - floor(SegSplits_<c> * ((k) - 1) + KEPT(seed, 0))";
+    return "#define CLONES_<n>(k, seed) (" + at_base + along + ")\n";
 }
 
 bool has_round_stems(const TranslatedSpecies& species) {
@@ -73,7 +79,8 @@ std::string macros_of_tree(const TranslatedSpecies& species) {
         "\n/* how long branches are at each height; how many leaves stems bear; how thick the foot is */\n";
     if (species.prunes() || species.value("Shape") == 8) text += envelope;
     text += fmt::format("#define SHAPE(r) ({})\n", shape_ratio(static_cast<int>(species.value("Shape"))));
-    text += "#define CONICAL(r) (0.2 + 0.8 * (r))\n#define TAPERED(r) (0.5 + 0.5 * (r))\n";
+    text += "#define CONICAL(r) (0.2 + 0.8 * (r))\n";
+    text += fmt::format("#define LEAVES_AT(r) ({})\n", shape_ratio(static_cast<int>(species.value("LeafDistrib"))));
     if (species.prunes()) text += inside;
     if (species.value("Flare") > 0) text += "#define FLARE(z) (1 + Flare * (100 ^ max(0, 1 - 8 * (z)) - 1) / 100)\n";
     if (has_round_stems(species)) text += "#define TIP(length, z) ((length) * (1 - (z)))\n";
@@ -92,17 +99,29 @@ std::string pieces(const TranslatedSpecies& species, int level) {
     return "#define PIECES_<n>(k) (" + foot + tip + "1)\n#define PART_<n>(i, k) (" + at_foot + at_tip + "(i))\n";
 }
 
+/// Where the j-th of the children stands on a stem.
+std::string place_macro(const TranslatedSpecies& species, int level) {
+    const std::string bare = level == 0 ? "bare" : species.sets("BaseSize", level) ? "BaseSize_<c>" : "";
+    const std::string above = bare.empty() ? "" : bare + " + (1 - " + bare + ") * ";
+    const std::string even = "(j, children) (" + above + "((j) + 0.5) / max(1, children))\n";
+    if (!species.sets("BranchDist", level + 1)) return "#define PLACE_<n>" + even;
+    return "#define EVEN_<n>" + even + "#define PLACE_<n>(j, children) max(" + (bare.empty() ? "0" : bare) +
+           ", \\\n\t(floor(EVEN_<n>(j, children) * CurveRes_<c>) + \\\n"
+           "\tBranchDist_<d> * FRACTION(EVEN_<n>(j, children) * CurveRes_<c>)) / CurveRes_<c>)\n";
+}
+
 std::string macros_of_level(const TranslatedSpecies& species, int level) {
     std::string text = "\n" + taper(species, level);
     text +=
         "#define CURVE_<n>(k) (CurveBack_<c> == 0 ? Curve_<c> / CurveRes_<c> : \\\n"
         "\t2 * ((k) < CurveRes_<c> / 2 ? Curve_<c> : CurveBack_<c>) / CurveRes_<c>)\n";
     text += bend(species, level);
-    if (species.splits(level)) text += splits_macro(level);
+    if (species.splits(level)) text += splits_macro(species, level);
     text += pieces(species, level);
-    const std::string above = level == 0 ? "bare + (1 - bare) * " : "";
-    text += "#define PLACE_<n>(j, children) (" + above + "((j) + 0.5) / max(1, children))\n";
-    return filled(text, species.words(level));
+    if (species.sets("BendV", level)) {
+        text += "#define SIDE_<n>(k, seed) KEPT_WITHIN(BendV_<c> / CurveRes_<c>, seed, (k) + 53)\n";
+    }
+    return filled(text + place_macro(species, level), species.words(level));
 }
 
 }  // namespace

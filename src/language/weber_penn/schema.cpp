@@ -50,6 +50,16 @@ const std::vector<Parameter>& of_tree() {
          {0}},
         {"LeafScale", "m", 1e-6, unbounded, false, "length of a leaf", {0.15}},
         {"LeafScaleX", "", 1e-3, unbounded, false, "width of a leaf by its length", {0.6}},
+        {"LeafBend", "", 0, 1, false, "how far leaves turn outwards and up to the light (LeafOrient is the same)", {0}},
+        {"LeafStemLen", "", 0, 100, false, "length of the stalk of a leaf, by LeafScale", {0}},
+        {"LeafDistrib",
+         "",
+         0,
+         7,
+         true,
+         "which shape, of those of Shape, the number of leaves follows from the base to the tip of the parent's parent",
+         {4}},
+        {"LeafQuality", "", 0.001, 1, false, "share of the leaves that are drawn, each the larger", {1}},
         {"AttractionUp",
          "",
          -unbounded,
@@ -76,9 +86,17 @@ const std::vector<Parameter>& of_tree() {
 
 const std::vector<Parameter>& of_levels() {
     static const std::vector<Parameter> all{
-        {"Scale", "", 1e-3, unbounded, false, "factor of the trunk's radius", {1}, 0},
+        {"Scale", "", 1e-3, unbounded, false, "factor of a stem's radius", {1, 1, 1, 1}, 0},
         {"ScaleV", "", 0, unbounded, false, "varies 0Scale", {0}, 0},
-        {"BaseSplits", "", 0, 100, true, "clones at the end of the trunk's first segment", {0}, 0},
+        {"BaseSize", "", 0, 0.99, false, "share of a stem's length without children", {0, 0, 0}, 1},
+        {"BaseSplits",
+         "",
+         -100,
+         100,
+         true,
+         "clones at the end of the trunk's first segment; negative: at random, from 0 to that many",
+         {0},
+         0},
         {"DownAngle", "degrees", -360, 360, false, "angle of a child with its parent", {60, 45, 45}, 1},
         {"DownAngleV",
          "degrees",
@@ -98,6 +116,14 @@ const std::vector<Parameter>& of_levels() {
          1},
         {"RotateV", "degrees", 0, 360, false, "varies nRotate", {0, 0, 0}, 1},
         {"Branches", "", 0, 100000, false, "children of a stem at most", {30, 20, 10}, 1},
+        {"BranchDist",
+         "",
+         0,
+         1,
+         false,
+         "where children stand on a segment of their parent, from 0, all at its base, to 1, spread over it",
+         {1, 1, 1},
+         1},
         {"Length",
          "",
          0,
@@ -115,7 +141,14 @@ const std::vector<Parameter>& of_levels() {
          "0 a cylinder, 1 a cone, 2 a cylinder with a round end, 3 a chain of spheres, and between",
          {1, 1, 1, 1},
          0},
-        {"SegSplits", "", 0, 100, false, "clones at the end of a segment", {0, 0, 0, 0}, 0},
+        {"SegSplits",
+         "",
+         -100,
+         100,
+         false,
+         "clones at the end of a segment; negative: at random, from 0 to that many",
+         {0, 0, 0, 0},
+         0},
         {"SplitAngle",
          "degrees",
          0,
@@ -150,6 +183,7 @@ const std::vector<Parameter>& of_levels() {
          "varies the bend; negative: the stem is a helix with this angle to its axis",
          {0, 0, 0, 0},
          0},
+        {"BendV", "degrees", 0, unbounded, false, "how far a stem bends to its sides, at random", {0, 0, 0, 0}, 0},
     };
     return all;
 }
@@ -193,13 +227,17 @@ std::string describe_parameters() {
     return text;
 }
 
+double Species::standard(const std::string& name, int level) const {
+    const Parameter& parameter = parameter_called(name, level >= 0);
+    const int place = parameter.has_levels() ? std::min(level, highest_described_level) - parameter.first_level : 0;
+    return parameter.standard.at(static_cast<std::size_t>(place));
+}
+
 double Species::value(const std::string& name, int level) const {
     const Parameter& parameter = parameter_called(name, level >= 0);
     const int described = std::min(level, highest_described_level);
     const auto found = values_.find(written_name(parameter, described));
-    if (found != values_.end()) return found->second;
-    const int place = parameter.has_levels() ? described - parameter.first_level : 0;
-    return parameter.standard.at(static_cast<std::size_t>(place));
+    return found != values_.end() ? found->second : standard(name, level);
 }
 
 std::optional<Location> Species::place(const std::string& written) const {

@@ -12,15 +12,23 @@ namespace {
 /// Parameters that choose productions are no settings of the model.
 bool is_built_in(const std::string& name) {
     return name == "Shape" || name == "Levels" || name == "Lobes" || name == "LobeDepth" || name == "LeafShape" ||
-           name == "LeafScaleX" || name == "Leaves";
+           name == "LeafScaleX" || name == "Leaves" || name == "LeafDistrib" || name == "LeafQuality";
+}
+
+/// Parameters that few species have: without them the model is as short as the paper's.
+bool is_seldom_set(const std::string& name, int level) {
+    return name == "BendV" || name == "BranchDist" || name == "LeafBend" || name == "LeafStemLen" ||
+           (level > 0 && (name == "Scale" || name == "BaseSize"));
 }
 
 bool matters(const TranslatedSpecies& species, const Parameter& parameter, int level) {
     const std::string& name = parameter.name;
     if (is_built_in(name)) return false;
+    if (is_seldom_set(name, level) && !species.sets(name, level)) return false;
+    if (name.starts_with("Leaf") && species.value("Leaves") == 0) return false;
     if (name.starts_with("Prune")) return species.prunes() || species.value("Shape") == 8;
-    const bool is_of_children =
-        name == "Branches" || name == "DownAngle" || name == "DownAngleV" || name == "Rotate" || name == "RotateV";
+    const bool is_of_children = name == "Branches" || name == "BranchDist" || name == "DownAngle" ||
+                                name == "DownAngleV" || name == "Rotate" || name == "RotateV";
     const bool is_of_leaves = is_of_children && name != "Branches" && level == species.described(species.levels());
     return level < species.levels() || (is_of_leaves && species.value("Leaves") != 0);
 }
@@ -29,7 +37,8 @@ std::string setting(const TranslatedSpecies& species, const Parameter& parameter
     const double number = level < 0 ? species.value(parameter.name) : species.value(parameter.name, level);
     double lowest = parameter.lowest, highest = parameter.highest;
     // The sign chooses productions, so it stays.
-    if (parameter.name == "CurveV" || parameter.name == "DownAngleV" || parameter.name == "Rotate") {
+    if (parameter.name == "CurveV" || parameter.name == "DownAngleV" || parameter.name == "Rotate" ||
+        parameter.name == "BaseSplits" || parameter.name == "SegSplits") {
         (number < 0 ? highest : lowest) = 0;
     }
     if (parameter.name == "Taper") {
@@ -62,7 +71,10 @@ std::string settings(const TranslatedSpecies& species) {
         const std::string line = fmt::format("#define Leaves {}  /* on a stem of the last level; 0..100000 whole */\n",
                                              format_exact(std::abs(species.value("Leaves"))));
         text += placed(line, species.species().place("Leaves"));
-        text += "#define QUALITY 1  /* share of the leaves that are drawn, each the larger; 0.001..1 */\n";
+        const std::string quality =
+            fmt::format("#define QUALITY {}  /* share of the leaves that are drawn, each the larger; 0.001..1 */\n",
+                        format_exact(species.value("LeafQuality")));
+        text += placed(quality, species.species().place("LeafQuality"));
     }
     return text;
 }

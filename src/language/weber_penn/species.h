@@ -39,6 +39,8 @@ class Species {
 public:
     /// What the file says or the default. Levels deeper than 3 are like level 3.
     double value(const std::string& name, int level = -1) const;
+    /// The default.
+    double standard(const std::string& name, int level = -1) const;
     int levels() const { return static_cast<int>(value("Levels")); }
     bool prunes() const { return value("PruneRatio") > 0; }
 
@@ -51,12 +53,18 @@ public:
     /// The first place where the file sets a parameter of a level, or anything.
     std::optional<Location> place_of_level(int level) const;
 
+    std::vector<Diagnostic> warnings;  ///< of what the file says and nothing reads
+
 private:
     std::map<std::string, double> values_;  // by written name
     std::map<std::string, Location> places_;
 };
 
-/// Reads a file; `name` stands in messages. Throws UserError with every mistake at its place.
+/// Reads a table as the paper prints it; `name` stands in messages. Throws UserError with every mistake at its place.
 Species parse(const std::string& text, const std::string& name);
+/// The same of the XML of Arbaro (W. Diestel 2003 to 2012).
+Species parse_arbaro(const std::string& text, const std::string& name);
+/// The same of the arrays of tree-gen (C. Hewitt 2017), a dict of Python or an object of JSON.
+Species parse_tree_gen(const std::string& text, const std::string& name);
 
 }  // namespace espalier::language::weber_penn

@@ -37,6 +37,8 @@ Words TranslatedSpecies::words(int level) const {
             {"frame", frame},
             {"P", prunes() ? "?P(x, y, z) " : ""},
             {"at", prunes() ? ", x, y, z" : ""},
+            {"leaf", bends_leaves() ? "?P(0, 0, 0) ?H(0, 0, 0) ?U(0, 0, 0) LeafBud" : "Leaf"},
+            {"side", sets("BendV", level) ? "+(SIDE_" + std::to_string(level) + "(k, seed)) " : ""},
             {"ask", prunes() ? "?P(0, 0, 0) ?H(0, 0, 0) ?U(0, 0, 0) " : "?H(0, 0, 0) ?U(0, 0, 0) "}};
 }
 

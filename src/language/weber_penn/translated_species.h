@@ -26,9 +26,17 @@ public:
     int levels() const { return species_.levels(); }
     double value(const std::string& name, int level = -1) const { return species_.value(name, level); }
 
+    /// Does a parameter have another value than its default?
+    bool sets(const std::string& name, int level = -1) const {
+        return value(name, level) != species_.standard(name, level);
+    }
+
     bool prunes() const { return species_.prunes(); }
+    bool bends_leaves() const { return value("Leaves") != 0 && sets("LeafBend"); }
     bool is_helix(int level) const { return value("CurveV", level) < 0; }
-    bool splits(int level) const { return value("SegSplits", level) > 0 || (level == 0 && value("BaseSplits", 0) > 0); }
+    bool splits(int level) const {
+        return value("SegSplits", level) != 0 || (level == 0 && value("BaseSplits", 0) != 0);
+    }
     bool has_lobes() const { return value("Lobes") > 0 && value("LobeDepth") > 0; }
     bool has_fans() const { return value("Leaves") < 0; }
     bool is_last(int level) const { return level + 1 == levels(); }
@@ -41,7 +49,8 @@ public:
     static int described(int level) { return std::min(level, highest_described_level); }
 
     /// The words of a level: <n> and <m> its number and that of its children, <c> and <d> those of their parameters,
-    /// <stem> and <frame> the parameters of a stem and of a turtle, <ask>, <P> and <at> what pruning asks.
+    /// <stem> and <frame> the parameters of a stem and of a turtle, <ask>, <P> and <at> what pruning asks, <leaf> a new
+    /// leaf, <side> the turn of a segment to its side.
     Words words(int level) const;
 
 private:
@@ -65,5 +74,8 @@ void add_drawing(const TranslatedSpecies& species, int level, Rules& rules);
 
 /// A leaf of length `size` as polygons: modules that move the turtle around its outline.
 std::string leaf_polygons(const Species& species, const std::string& size);
+
+/// The production by which a new leaf turns to the light.
+std::string leaf_turns();
 
 }  // namespace espalier::language::weber_penn

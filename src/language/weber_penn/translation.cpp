@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <cstdlib>
 #include <filesystem>
 
 namespace espalier::language::weber_penn {
@@ -32,6 +32,7 @@ std::string declarations(const TranslatedSpecies& species) {
         text += ";\n";
     }
     if (species.value("Leaves") != 0) text += "module Leaf;\n";
+    if (species.bends_leaves()) text += "module LeafBud, Foot;\n";
     if (species.has_fans()) text += "module Fan(i, leaves);\n";
     return text;
 }
@@ -41,7 +42,8 @@ std::string length(const TranslatedSpecies& species) {
     std::string sum = "CurveRes_0";
     for (int level = 1; level < species.levels(); ++level)
         sum += fmt::format(" + CurveRes_{}", species.described(level));
-    return species.prunes() ? sum : fmt::format("{} - {}", sum, species.levels() - 1);
+    const int less = (species.prunes() ? 0 : species.levels() - 1) - (species.bends_leaves() ? 1 : 0);
+    return less == 0 ? sum : fmt::format("{} {} {}", sum, less > 0 ? "-" : "+", std::abs(less));
 }
 
 std::string start(const TranslatedSpecies& species) {
@@ -50,7 +52,7 @@ std::string start(const TranslatedSpecies& species) {
         "\ttrunk_length = (Length_0 + WITHIN(LengthV_0)) * scale * (ZScale + WITHIN(ZScaleV));\n"
         "\ttrunk_radius = trunk_length * Ratio * (Scale_0 + WITHIN(ScaleV_0));\n"
         "\tbare = min(base / max(trunk_length, 1e-9), 0.99);\n";
-    if (species.prunes()) text += "\tfoot_x = 0;\n\tfoot_y = 0;\n\tfoot_z = 0;\n";
+    if (species.prunes() || species.bends_leaves()) text += "\tfoot_x = 0;\n\tfoot_y = 0;\n\tfoot_z = 0;\n";
     return text;
 }
 
@@ -58,8 +60,9 @@ std::string axiom(const TranslatedSpecies& species) {
     const std::string children = !species.is_last(0)            ? "round(Branches_1)"
                                  : species.value("Leaves") == 0 ? "0"
                                                                 : "round(Leaves * QUALITY)";
-    return fmt::format("/(ran(360)) {}Bud0(trunk_length, trunk_radius, {})",
-                       species.prunes() ? "?P(0, 0, 0) ?H(0, 0, 0) ?U(0, 0, 0) " : "", children);
+    return fmt::format("/(ran(360)) {}Bud0(trunk_length, trunk_radius, {}){}",
+                       species.prunes() ? "?P(0, 0, 0) ?H(0, 0, 0) ?U(0, 0, 0) " : "", children,
+                       species.bends_leaves() ? " ?P(0, 0, 0) Foot" : "");
 }
 
 std::string leaf_drawing(const TranslatedSpecies& species) {
@@ -79,6 +82,13 @@ Rules rules_of(const TranslatedSpecies& species) {
         all.productions += title + placed(rules.productions, at);
         all.decomposition += title + placed(rules.decomposition, at);
         all.drawing += placed(rules.drawing, at);
+    }
+    if (species.bends_leaves()) {
+        const std::string turns =
+            "\n/* where the tree stands, and how leaves turn */\n"
+            "?P(x, y, z) Foot : {foot_x = x; foot_y = y; foot_z = z;} 1 --> *\n" +
+            leaf_turns();
+        all.productions += placed(turns, species.species().place("LeafBend"));
     }
     return all;
 }
@@ -103,7 +113,9 @@ std::string text_of(const TranslatedSpecies& species, const std::string& file) {
 
 TranslatedText model_of(const Species& species, const std::string& file) {
     const std::string name = std::filesystem::path(file).filename().string();
-    return unmarked(text_of(TranslatedSpecies(species), name), {file});
+    TranslatedText translated = unmarked(text_of(TranslatedSpecies(species), name), {file});
+    translated.warnings = species.warnings;
+    return translated;
 }
 
 }  // namespace espalier::language::weber_penn

@@ -10,11 +10,10 @@ namespace espalier::python {
 namespace {
 
 /// A recorded frame in memory; arrays read it for as long as they live.
-struct LoadedFrame {
+struct LoadedFrame : std::enable_shared_from_this<LoadedFrame> {
     std::vector<FrameInternode> internodes;
     FrameGeometry geometry;
 };
-using SharedFrame = std::shared_ptr<const LoadedFrame>;
 
 py::ssize_t rows_of(const LoadedFrame& frame) {
     return static_cast<py::ssize_t>(frame.internodes.size());
@@ -31,16 +30,16 @@ const T* number_of(const T& value) {
 
 template <class T>
 auto numbers(const T FrameInternode::*member) {
-    return [member](const SharedFrame& frame) {
-        const auto* first = frame->internodes.empty() ? nullptr : number_of(frame->internodes.data()->*member);
-        return view(frame, first, {rows_of(*frame)}, {sizeof(FrameInternode)});
+    return [member](const LoadedFrame& frame) {
+        const auto* first = frame.internodes.empty() ? nullptr : number_of(frame.internodes.data()->*member);
+        return view(frame.shared_from_this(), first, {rows_of(frame)}, {sizeof(FrameInternode)});
     };
 }
 
 auto vectors(const glm::vec3 FrameInternode::*member) {
-    return [member](const SharedFrame& frame) {
-        const float* first = frame->internodes.empty() ? nullptr : &(frame->internodes.data()->*member).x;
-        return view(frame, first, {rows_of(*frame), 3}, {sizeof(FrameInternode), sizeof(float)});
+    return [member](const LoadedFrame& frame) {
+        const float* first = frame.internodes.empty() ? nullptr : &(frame.internodes.data()->*member).x;
+        return view(frame.shared_from_this(), first, {rows_of(frame), 3}, {sizeof(FrameInternode), sizeof(float)});
     };
 }
 
@@ -170,6 +169,7 @@ PYBIND11_MODULE(_recorded, module) {
         .def("frame", frame_at, py::arg("step"))
         .def("field", field_at, py::arg("name"), py::arg("step"))
         .def("history", history_of, py::arg("identity"), py::arg("plant"));
+    refuse_unmade(module);
 }
 
 }  // namespace espalier::python

@@ -135,6 +135,13 @@ Frame World::frame() const {
     return frame;
 }
 
+Frame World::frame_of_plants() const {
+    Frame frame{state_->step, state_->time(), {}, nullptr, state_->is_at_end(), nullptr};
+    for (const GrowingPlant& plant : state_->plants) frame.plants.push_back(plant.frame({}));
+    frame.models = state_->models();
+    return frame;
+}
+
 Frame World::State::frame_of(std::span<const GrowingPlant> some) const {
     Frame frame{step, time(), {}, &environment->fields(), is_at_end(), environment.get()};
     frame.plants.reserve(some.size());

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <new>
@@ -88,6 +89,7 @@ struct Growth::Work {
     fs::path statistics_file;
     std::size_t statistics_read = 0;
     std::shared_ptr<const Origin> origin;  ///< null: what is drawn comes back to the strings
+    bool draws_apart = false;              ///< steps may be drawn in any order, or not at all
     int at = -1;                           ///< the step that the world is at
     int derived = -1;                      ///< the last step that there is
     int own_steps = 0;                     ///< that were derived here
@@ -108,8 +110,6 @@ Growth::Growth(GrowthOrder order, GrowthListener& listener, Workers& workers)
           if (!cancelled_) listener_.printed(number(), std::move(text));
       }),
       steps_(std::make_shared<KeptSteps>(order_.number, order_.scratch / fmt::format("growth-{}", order_.number))),
-      fields_(order_.scratch / fmt::format("fields-{}", order_.number)),
-      organs_(order_.scratch / fmt::format("organs-{}", order_.number)),
       version_(order_.version),
       wanted_(order_.looked_at),
       ended_(workers.run([this] { live(); })) {}
@@ -161,7 +161,8 @@ std::vector<std::string> Growth::column_names() const {
 }
 
 std::string Growth::column(int step, const std::string& name) const {
-    return organs_.has(name) ? organs_.message(name, step) : studio::column(*scene(), *steps_, number(), step, name);
+    return steps_->organs().has(name) ? steps_->organs().message(name, step, number())
+                                      : studio::column(*scene(), *steps_, number(), step, name);
 }
 
 Picked Growth::module_info(int step, std::uint32_t module) const {
@@ -212,15 +213,26 @@ void Growth::begin(Work& work, GrowthStart start) {
     may_extend_ = !depends_on_length(world.scene());
     if (draws_apart(world.scene())) {
         work.origin = std::make_shared<const Origin>(Origin{world.scene(), start.files, last_step_});
-        steps_->expect(world.scene());
+        work.draws_apart = true;
+    } else if (stages_draw_apart(world)) {
+        work.origin = std::make_shared<const Origin>(Origin{world.scene(), start.files, last_step_, true});
     }
+    if (work.origin) steps_->expect(world.scene());
     if (may_extend_) world.set_steps(most_steps);
+    const std::vector<std::string> columns = organ_columns(world.scene(), world.environment());
     const std::shared_ptr<const KeptSteps> before = std::move(before_);
-    if (work.origin && before) work.derived = steps_->inherit(*before, *work.origin);
+    const auto knows = [&](const std::string& organ) { return before->organs().has(organ); };
+    const bool serves =
+        work.origin && before && (!work.origin->exchanges || std::all_of(columns.begin(), columns.end(), knows));
+    if (serves) work.derived = steps_->inherit(*before, *work.origin);
+    if (!work.draws_apart && work.derived >= 0) {
+        work.draws_apart = true;
+        may_extend_ = false;
+    }
     {
         const std::lock_guard lock(mutex_);
         scene_ = std::make_shared<const Scene>(world.scene());
-        organ_columns_ = organ_columns(world.scene(), world.environment());
+        organ_columns_ = columns;
     }
     for (const Plant& plant : world.scene().plants) start.plants.push_back(plant.name);
     for (const auto& [name, field] : world.environment().fields().all()) {
@@ -260,7 +272,7 @@ void Growth::drop(Work& work) {
     if (cancelled_) return;
     forget_stop();
     if (!std::exchange(work.is_deriving, false)) work.draws_in_order = false;
-    if (work.origin) {
+    if (work.draws_apart) {
         work.renew_world();
         if (may_extend_) work.world.set_steps(most_steps);
         return;
@@ -278,7 +290,7 @@ bool Growth::may_grow(const Work& work) const {
 bool Growth::advance(Work& work) {
     const bool grows = may_grow(work);
     if (!grows && stopped_) forget_stop();  // what was derived is still drawn
-    if (!work.origin) {
+    if (!work.draws_apart) {
         forget_wanted();
         if (grows) step(work);
         return grows;
@@ -310,10 +322,16 @@ void Growth::step(Work& work) {
         work.world.step();
     }
     note_derived(work);
+    if (work.is_ended) steps_->note_stop(work.at);
     const Frame frame = work.world.frame();
     std::string rows = work.record(frame);
-    for (const auto& [name, field] : frame.fields->all()) fields_.add(name, work.at, field_bytes(field, number(), 0));
-    for (const std::string& name : organ_columns_) organs_.add(name, work.at, organ_column(frame, number(), name));
+    for (const auto& [name, field] : frame.fields->all()) {
+        steps_->fields().add(name, work.at, field_bytes(field, number(), 0));
+    }
+    for (const std::string& name : organ_columns_) {
+        steps_->organs().add(name, work.at, organ_column(frame, number(), name));
+    }
+    if (work.origin) steps_->add_derived(work.world.derived(), work.origin);
     note_grown(work, steps_->add(frame), std::move(rows));
 }
 
@@ -381,14 +399,23 @@ void Growth::draw_in_order(Work& work) {
 Frame Growth::frame_at(Work& work, int step) {
     go_to(work, step);
     work.world.interpret();
+    if (work.origin->exchanges) return answered_frame(work, step);
     work.world.exchange();
     return work.world.frame();
+}
+
+// Its string has the answers already, and what processes told of it was kept.
+Frame Growth::answered_frame(const Work& work, int step) const {
+    Frame frame = work.world.frame_of_plants();
+    const std::vector<std::vector<Quantity>> quantities = steps_->quantities(step);
+    for (std::size_t i = 0; i < frame.plants.size(); ++i) frame.plants[i].quantities = quantities[i];
+    return frame;
 }
 
 // The newest step has been drawn.
 void Growth::note_grown(Work& work, std::size_t internodes, std::string statistics) {
     work.told = work.at;
-    if (!work.origin) work.drawn = work.at;
+    if (!work.draws_apart) work.drawn = work.at;
     GrownStep step;
     step.step = work.at;
     step.last_step = last_step_;

@@ -6,7 +6,6 @@
 #include "espalier/simulation/world.h"
 #include "espalier/studio/studio.h"
 
-#include "studio/growth/kept_messages.h"
 #include "studio/growth/kept_steps.h"
 #include "studio/growth/plant_source.h"
 #include "studio/growth/printed_text.h"
@@ -71,7 +70,9 @@ public:
     std::vector<std::string> column_names() const override;
     std::string column(int step, const std::string& name) const override;
     Picked module_info(int step, std::uint32_t module) const override;
-    std::string field(int step, const std::string& name) const override { return fields_.message(name, step); }
+    std::string field(int step, const std::string& name) const override {
+        return steps_->fields().message(name, step, number());
+    }
 
     void cancel() override;
     bool has_ended() const override { return ended_.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
@@ -100,6 +101,7 @@ private:
     bool may_draw_in_order(const Work& work) const;
     void draw_in_order(Work& work);
     Frame frame_at(Work& work, int step);
+    Frame answered_frame(const Work& work, int step) const;
     void note_grown(Work& work, std::size_t internodes, std::string statistics);
     void wait_for_more(const Work& work);
 
@@ -108,7 +110,6 @@ private:
     GrowthListener& listener_;
     PrintedText printed_;
     const std::shared_ptr<KeptSteps> steps_;
-    KeptMessages fields_, organs_;
     const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
     std::uint64_t version_ = 0;
     std::atomic<int> last_step_ = -1;

@@ -24,8 +24,8 @@ bool KeptMessages::has(const std::string& name) const {
     return histories_.contains(name);
 }
 
-std::string KeptMessages::message(const std::string& name, int step) const {
-    constexpr std::size_t place_of_step = 8;
+std::string KeptMessages::message(const std::string& name, int step, std::uint32_t growth) const {
+    constexpr std::size_t place_of_growth = 4, place_of_step = 8;
     const std::lock_guard lock(mutex_);
     const auto history = histories_.find(name);
     if (history == histories_.end()) throw UserError(fmt::format("nothing is known of '{}'", name));
@@ -33,6 +33,7 @@ std::string KeptMessages::message(const std::string& name, int step) const {
     if (place == history->second.steps.end()) throw UserError(fmt::format("step {} has not been grown", step));
     std::string message = spool_->text(place->second);
     const auto number = static_cast<std::int32_t>(step);
+    std::memcpy(message.data() + place_of_growth, &growth, sizeof growth);
     std::memcpy(message.data() + place_of_step, &number, sizeof number);
     return message;
 }

@@ -23,8 +23,8 @@ public:
     void add(const std::string& name, int step, std::string message);
     /// Any step has a message of this name.
     bool has(const std::string& name) const;
-    /// Throws UserError if there is none of this name and step.
-    std::string message(const std::string& name, int step) const;
+    /// As of this growth. Throws UserError if there is none of this name and step.
+    std::string message(const std::string& name, int step, std::uint32_t growth) const;
 
 private:
     struct History {

@@ -4,6 +4,13 @@
 
 namespace espalier::studio {
 
+KeptSteps::KeptSteps(std::uint32_t growth, const std::filesystem::path& file, std::size_t memory)
+    : writer_(growth, file.parent_path()),
+      file_(file),
+      memory_(memory),
+      fields_(std::make_shared<KeptMessages>(file.string() + "-fields")),
+      organs_(std::make_shared<KeptMessages>(file.string() + "-organs")) {}
+
 ModuleString KeptSteps::Step::string(std::size_t plant) const {
     ModuleString string = strings->string(plant);
     if (changes && changes->plants[plant]) changes->plants[plant]->apply(string);
@@ -15,10 +22,12 @@ void KeptSteps::expect(const Scene& scene) {
 }
 
 int KeptSteps::inherit(const KeptSteps& before, const Origin& now) {
-    std::map<int, Step> theirs;
+    std::map<int, Step> theirs, ours;
+    int stopped_at = -1;
     {
         const std::lock_guard lock(before.mutex_);
         theirs = before.steps_;
+        stopped_at = before.stopped_at_;
     }
     std::map<const Origin*, std::shared_ptr<const ReusePlan>> known;  // by where strings come from: a few at most
     int last = -1;
@@ -33,10 +42,23 @@ int KeptSteps::inherit(const KeptSteps& before, const Origin& now) {
         }
         const std::shared_ptr<const ReusePlan>& plan = place->second;
         if (!plan || number >= plan->steps) break;
-        keep(number, {nullptr, {}, step.strings, plan->changes_strings() ? plan : nullptr});
+        ours[number] = {
+            nullptr, {}, step.strings, plan->changes_strings() ? plan : nullptr, std::move(step.quantities)};
         last = number;
     }
+    if (now.exchanges) {
+        if (last < now.last_step && last != stopped_at) return -1;
+        fields_ = before.fields_;
+        organs_ = before.organs_;
+    }
+    for (auto& [number, step] : ours) keep(number, std::move(step));
+    if (last == stopped_at) note_stop(last);
     return last;
+}
+
+void KeptSteps::note_stop(int step) {
+    const std::lock_guard lock(mutex_);
+    stopped_at_ = step;
 }
 
 void KeptSteps::add_derived(DerivedStep derived, std::shared_ptr<const Origin> origin) {
@@ -57,6 +79,9 @@ std::size_t KeptSteps::add(const timeline::Frame& frame) {
         DerivedStep derived{frame.step, {}};
         for (const timeline::PlantFrame& plant : frame.plants) derived.plants.push_back({plant.string, ""});
         drawn.strings = std::make_shared<const StepStrings>(std::move(derived), nullptr);
+    }
+    if (drawn.quantities.empty()) {
+        for (const timeline::PlantFrame& plant : frame.plants) drawn.quantities.push_back(plant.quantities);
     }
     drawn.drawing = std::make_shared<const Drawing>(Drawing{std::move(packet.bytes), std::move(packet.axes)});
     keep(frame.step, std::move(drawn));
@@ -126,6 +151,10 @@ DerivedStep KeptSteps::derived(int number) const {
         derived.plants[plant].string = std::move(string);
     }
     return derived;
+}
+
+std::vector<std::vector<Quantity>> KeptSteps::quantities(int number) const {
+    return step(number).quantities;
 }
 
 std::vector<ModuleString> KeptSteps::strings(int number) const {

@@ -7,6 +7,8 @@
 #include "studio/growth/expressions_of.h"
 #include "turtle/asking.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <bit>
 #include <set>
@@ -72,6 +74,17 @@ public:
         }
     }
 
+    /// Both are drawn alike, too.
+    bool is_same_drawing() const {
+        return same_all(before_.systems, now_.systems, [this](const LSystem& a, const LSystem& b) {
+            const RuleSet &x = a.homomorphism, &y = b.homomorphism;
+            return x.present == y.present && same(x.maximum_depth, y.maximum_depth) && same(x.seed, y.seed) &&
+                   same_all(x.productions, y.productions, [this](const Production& p, const Production& q) {
+                       return is_same_left(p, q) && is_same_modules(p.successor, q.successor);
+                   });
+        });
+    }
+
     /// Null if they do not derive alike.
     std::shared_ptr<const ParameterChanges> changes() {
         if (before_.arithmetic != now_.arithmetic || before_.processes != now_.processes) return nullptr;
@@ -116,10 +129,22 @@ private:
 
     bool is_same_rules(const std::vector<Production>& a, const std::vector<Production>& b) {
         return same_all(a, b, [this](const Production& x, const Production& y) {
-            return is_same_patterns(x.left, y.left) && is_same_patterns(x.strict, y.strict) &&
-                   is_same_patterns(x.right, y.right) && x.formals.size() == y.formals.size() &&
-                   same_block(x.before, y.before) && same(x.condition, y.condition) && same_block(x.after, y.after) &&
-                   same(x.weight, y.weight) && is_same_text(x.successor, y.successor);
+            return is_same_left(x, y) && is_same_text(x.successor, y.successor);
+        });
+    }
+
+    // All but the successors.
+    bool is_same_left(const Production& x, const Production& y) const {
+        return is_same_patterns(x.left, y.left) && is_same_patterns(x.strict, y.strict) &&
+               is_same_patterns(x.right, y.right) && x.formals.size() == y.formals.size() &&
+               same_block(x.before, y.before) && same(x.condition, y.condition) && same_block(x.after, y.after) &&
+               same(x.weight, y.weight);
+    }
+
+    bool is_same_modules(const std::vector<ModuleTemplate>& a, const std::vector<ModuleTemplate>& b) const {
+        return same_all(a, b, [this](const ModuleTemplate& x, const ModuleTemplate& y) {
+            return is_same_letter(x.letter, y.letter) &&
+                   same_all(x.arguments, y.arguments, [](const auto& e, const auto& f) { return same(e, f); });
         });
     }
 
@@ -187,11 +212,12 @@ int first_difference(const std::vector<Insertion>& before, const std::vector<Ins
     return first;
 }
 
-// Compares all files but the models', which were compared themselves.
+// Compares all files but the models' and the scene's, which were compared themselves.
 bool has_same_side_files(const Origin& before, const Origin& now) {
     const auto side_files = [](const Origin& origin) {
         std::map<std::filesystem::path, std::uint64_t> digests;
         for (const auto& [path, file] : origin.files) digests[path] = file.digest;
+        if (origin.exchanges) digests.erase(std::filesystem::absolute(origin.scene.path).lexically_normal());
         for (const Plant& plant : origin.scene.plants) {
             digests.erase(std::filesystem::absolute(source_of(*plant.model).path).lexically_normal());
         }
@@ -203,6 +229,61 @@ bool has_same_side_files(const Origin& before, const Origin& now) {
 bool derivations_read_resources(const Scene& scene) {
     return std::any_of(scene.plants.begin(), scene.plants.end(), [](const Plant& plant) {
         return holds_in_derivation(source_of(*plant.model).main(), reads_resources);
+    });
+}
+
+// The settings of a scene but for its stages, what is recorded, and what its models are made of: these are compared
+// themselves.
+std::string settings_without_stages(const Scene& scene) {
+    auto settings = nlohmann::json::parse(scene.root.resolved_json());
+    settings.erase("timeline");
+    if (settings.contains("plant")) {
+        for (auto& plant : settings["plant"]) {
+            for (const char* key : {"stage", "define", "model"}) plant.erase(key);
+        }
+    }
+    auto processes = nlohmann::json::array();
+    for (const auto& [name, table] : scene.environment.processes) {
+        processes.push_back({name, nlohmann::json::parse(table.resolved_json())});
+    }
+    return settings.dump() + processes.dump();
+}
+
+// Only their stages differ.
+std::optional<ReusePlan> plan_for_stages(const Origin& before, const Origin& now) {
+    const std::size_t count = now.scene.plants.size();
+    if (settings_without_stages(before.scene) != settings_without_stages(now.scene) ||
+        !has_same_side_files(before, now)) {
+        return std::nullopt;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const Plant &a = before.scene.plants[i], &b = now.scene.plants[i];
+        Comparison compared(source_of(*a.model), source_of(*b.model));
+        const auto changes = compared.changes();
+        if (!changes || !changes->empty() || !compared.is_same_drawing()) return std::nullopt;
+        if (a.stream != b.stream || first_difference(a.insertions, b.insertions) != INT_MAX) return std::nullopt;
+    }
+    return ReusePlan{INT_MAX, std::vector<std::shared_ptr<const ParameterChanges>>(count)};
+}
+
+bool is_query(const Model& model, LetterId letter) {
+    const std::string& name = model.alphabet.name(letter);
+    return name.starts_with('?') || name == "s";
+}
+
+// The homomorphism neither reads what is asked, nor remembers what it drew before.
+bool draws_the_same_again(const Model& model) {
+    const LSystem& system = model.main();
+    if (holds_in_homomorphism(system, [](const Expression& e) { return e.kind == Expression::Kind::assign; }))
+        return false;
+    const auto reads_queries = [&](const std::vector<ModulePattern>& patterns) {
+        return std::any_of(patterns.begin(), patterns.end(), [&](const ModulePattern& pattern) {
+            return !pattern.skip_branch && is_query(model, pattern.letter);
+        });
+    };
+    const auto& productions = system.homomorphism.productions;
+    return std::none_of(productions.begin(), productions.end(), [&](const Production& production) {
+        return reads_queries(production.left) || reads_queries(production.strict) || reads_queries(production.right);
     });
 }
 
@@ -220,6 +301,22 @@ bool draws_apart(const Scene& scene) {
         const Model& model = source_of(*plant.model);
         return plant.in_time || plant.drawing_in_time || model.systems.size() > 1 || has_queries(model.alphabet) ||
                holds_in_derivation(model.main(), uses_files);
+    });
+}
+
+bool stages_draw_apart(const World& world) {
+    const Scene& scene = world.scene();
+    if (scene.plants.size() > most_plants || scene.path.empty()) return false;
+    const Environment& environment = world.environment();
+    for (std::size_t process = 0; process < environment.size(); ++process) {
+        const Spreading reads = environment.spreading(process);
+        if (reads != Spreading::queries && reads != Spreading::reach) return false;
+    }
+    return std::none_of(scene.plants.begin(), scene.plants.end(), [](const Plant& plant) {
+        const Model& model = source_of(*plant.model);
+        return plant.in_time || plant.drawing_in_time || model.systems.size() > 1 ||
+               holds_in_derivation(model.main(), uses_files) || !fields_read_by(model).empty() ||
+               !draws_the_same_again(model);
     });
 }
 
@@ -249,8 +346,10 @@ bool ReusePlan::changes_strings() const {
 
 std::optional<ReusePlan> reuse_plan(const Origin& before, const Origin& now) {
     const std::size_t count = now.scene.plants.size();
+    if (before.exchanges != now.exchanges) return std::nullopt;
     if (before.scene.seed != now.scene.seed || before.scene.plants.size() != count || !has_same_length(before, now))
         return std::nullopt;
+    if (now.exchanges) return plan_for_stages(before, now);
     const bool reads_resources = derivations_read_resources(now.scene);
     if (reads_resources && !has_same_side_files(before, now)) return std::nullopt;
     ReusePlan found;

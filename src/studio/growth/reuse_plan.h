@@ -2,7 +2,7 @@
 #pragma once
 
 #include "espalier/base/read_log.h"
-#include "espalier/simulation/scene.h"
+#include "espalier/simulation/world.h"
 
 #include <climits>
 
@@ -20,11 +20,17 @@ namespace espalier::studio {
 /// step of derivation can be taken up again. Such steps may be drawn in any order, or not at all.
 bool draws_apart(const Scene& scene);
 
+/// True if what geometry stages draw does not come back to the strings, though what turtles ask does: no process reads
+/// what is drawn, and a string with its answers is drawn as it was without them. The steps of a growth that has ended
+/// may then be drawn in any order, with other stages, without deriving and exchanging again.
+bool stages_draw_apart(const World& world);
+
 /// What strings were derived from.
 struct Origin {
     Scene scene;  ///< as World decided it
     std::map<std::filesystem::path, ReadLog::File> files;
-    int last_step = 0;  ///< as the scene says, before the user grew on
+    int last_step = 0;       ///< as the scene says, before the user grew on
+    bool exchanges = false;  ///< processes or turtles answered the strings: those of another growth must all be there
 };
 
 /// Other values of parameters that derivation writes as constants and never reads: angles, widths, colours.
@@ -52,7 +58,7 @@ struct ReusePlan {
     bool changes_strings() const;
 };
 
-/// None if strings of `before` do not serve `now`. Both draw apart.
+/// None if strings of `before` do not serve `now`. In both draw all, or the stages, apart.
 std::optional<ReusePlan> reuse_plan(const Origin& before, const Origin& now);
 
 }  // namespace espalier::studio

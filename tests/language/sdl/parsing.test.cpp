@@ -83,6 +83,23 @@ TEST_CASE("a description may have no rules, and then begins with its first compo
     CHECK(sdl::parse("define { a[0,1,0,0]; b[0,1,0,0]; } rules { }", "x.sdl").start().name == "a");
 }
 
+TEST_CASE("features that are left out at the end are 0, as the paper's grammar allows", "[sdl]") {
+    const sdl::Skeleton skeleton = sdl::parse("define{ a[0.5]; b[0, 2:1]; c[1, 2, 30]; } rules{}", "x.sdl");
+    const sdl::Skeleton whole = sdl::parse("define{ a[0.5,0,0,0]; b[0,2:1,0,0]; c[1,2,30,0]; } rules{}", "x.sdl");
+    CHECK(sdl::to_text(skeleton) == sdl::to_text(whole));
+    CHECK_THAT(complaint("define{ a[]; } rules{}"), Catch::Contains("the beginning of 'a'"));
+    CHECK_THAT(complaint("define{ a[0,]; } rules{}"), Catch::Contains("the length of 'a'"));
+}
+
+TEST_CASE("define and rules may be empty: nothing grows, with a warning", "[sdl]") {
+    CHECK(sdl::to_text(sdl::parse("define{ } rules{ }", "x.sdl")) == "define{\n}\nrules{\n}\n");
+    const TranslatedText model = sdl::model_of(sdl::parse("define{} rules{} generations 3;", "x.sdl"), "x.sdl");
+    REQUIRE(model.warnings.size() == 1);
+    CHECK_THAT(model.warnings[0].message, Catch::Contains("has no components"));
+    CHECK(read_model_text(model.text, "x")->systems.size() == 1);
+    CHECK_THAT(complaint("define{} rules{ a -> (); }"), Catch::Contains("component 'a' is not defined"));
+}
+
 TEST_CASE("expressions, cycles, weights, fibres and generations are read", "[sdl]") {
     const sdl::Skeleton skeleton = sdl::parse(R"(
         define{ a[0,1,0,0]; b[0.2 + i / 4, -length / (2 + i), 360 * i / 3, 2 * 10 : 3]; }
@@ -140,8 +157,8 @@ TEST_CASE("every mistake in a skeleton is explained at its place as approved", "
 }
 
 TEST_CASE("all mistakes of a skeleton are reported at once", "[sdl]") {
-    const std::string said = complaint("define{ a[0,1]; b[0,1,0,0]; }\nrules{ a -> (c); b - (a); b -> (d); }\n");
-    CHECK(said.find("test.sdl:1:14: ") != std::string::npos);
+    const std::string said = complaint("define{ a[0,1,0,0,5]; b[0,1,0,0]; }\nrules{ a -> (c); b - (a); b -> (d); }\n");
+    CHECK(said.find("test.sdl:1:18: ") != std::string::npos);
     CHECK(said.find("test.sdl:2:14: component 'c' is not defined") != std::string::npos);
     CHECK(said.find("test.sdl:2:20: expected '->' after 'b', found '-'") != std::string::npos);
     CHECK(said.find("test.sdl:2:33: component 'd' is not defined") != std::string::npos);

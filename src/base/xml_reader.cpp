@@ -1,0 +1,93 @@
+#include "base/xml_reader.h"
+
+#include <climits>
+#include <fmt/format.h>
+
+#include <cstring>
+#include <expat.h>
+
+namespace espalier {
+namespace {
+
+constexpr int most_depth = 200;
+
+}  // namespace
+
+bool XmlAttributes::has(const char* name) const {
+    for (const char* const* at = first_; *at; at += 2) {
+        if (std::strcmp(name, *at) == 0) return true;
+    }
+    return false;
+}
+
+std::string XmlAttributes::value(const char* name) const {
+    for (const char* const* at = first_; *at; at += 2) {
+        if (std::strcmp(name, *at) == 0) return at[1];
+    }
+    return "";
+}
+
+/// What expat calls. No exception passes through it.
+struct XmlReader::Events {
+    template <class Work>
+    static void guarded(void* self, Work work) {
+        auto& reader = *static_cast<XmlReader*>(self);
+        if (reader.mistake_) return;
+        try {
+            work(reader);
+        } catch (...) {
+            reader.mistake_ = std::current_exception();
+            XML_StopParser(reader.parser_.get(), XML_FALSE);
+        }
+    }
+    static void begin(void* self, const char* element, const char** attributes) {
+        guarded(self, [&](XmlReader& reader) {
+            if (++reader.depth_ > most_depth) {
+                reader.fail(fmt::format("elements are nested deeper than {}", most_depth));
+            }
+            reader.begin(element, XmlAttributes(attributes));
+            reader.text_.clear();
+        });
+    }
+    static void end(void* self, const char* element) {
+        guarded(self, [&](XmlReader& reader) {
+            --reader.depth_;
+            reader.end(element);
+            reader.text_.clear();
+        });
+    }
+    static void characters(void* self, const char* text, int length) {
+        guarded(self, [&](XmlReader& reader) { reader.text_.append(text, static_cast<std::size_t>(length)); });
+    }
+    static void entity(void* self, const char*, int, const char*, int, const char*, const char*, const char*,
+                       const char*) {
+        guarded(self, [](XmlReader& reader) { reader.fail("entities are not read here"); });
+    }
+};
+
+XmlReader::XmlReader(std::string name) : name_(std::move(name)), parser_(XML_ParserCreate(nullptr), XML_ParserFree) {
+    XML_SetUserData(parser_.get(), this);
+    XML_SetElementHandler(parser_.get(), Events::begin, Events::end);
+    XML_SetCharacterDataHandler(parser_.get(), Events::characters);
+    XML_SetEntityDeclHandler(parser_.get(), Events::entity);
+}
+
+XmlReader::~XmlReader() = default;
+
+void XmlReader::parse(const std::string& text) {
+    if (text.size() > INT_MAX) fail("this file is too long");
+    const XML_Status status = XML_Parse(parser_.get(), text.data(), static_cast<int>(text.size()), 1);
+    if (mistake_) std::rethrow_exception(mistake_);
+    if (status != XML_STATUS_OK) fail(XML_ErrorString(XML_GetErrorCode(parser_.get())));
+}
+
+Place XmlReader::here() const {
+    return {name_, static_cast<int>(XML_GetCurrentLineNumber(parser_.get())),
+            static_cast<int>(XML_GetCurrentColumnNumber(parser_.get())) + 1};
+}
+
+void XmlReader::fail(const std::string& message) const {
+    throw UserError(here(), message);
+}
+
+}  // namespace espalier

@@ -1,0 +1,60 @@
+// XML as events, read with expat.
+#pragma once
+
+#include "espalier/base/error.h"
+
+#include <exception>
+#include <memory>
+#include <string>
+
+struct XML_ParserStruct;
+
+namespace espalier {
+
+/// The attributes of one element.
+class XmlAttributes {
+public:
+    explicit XmlAttributes(const char* const* names_and_values) : first_(names_and_values) {}
+
+    bool has(const char* name) const;
+    /// "" if there is none.
+    std::string value(const char* name) const;
+
+private:
+    const char* const* first_;  // of expat: names and values in turn, then null
+};
+
+/// Reads a document element by element. Entities are refused, and elements nested deeper than 200.
+class XmlReader {
+public:
+    XmlReader(const XmlReader&) = delete;
+    XmlReader& operator=(const XmlReader&) = delete;
+
+protected:
+    /// `name` stands in messages.
+    explicit XmlReader(std::string name);
+    virtual ~XmlReader();
+
+    /// Calls begin() and end() for each element in turn. Throws UserError with the place of a mistake, and what they
+    /// throw.
+    void parse(const std::string& text);
+
+    virtual void begin(const std::string& element, const XmlAttributes& attributes) = 0;
+    virtual void end(const std::string& element) = 0;
+
+    /// Where the reader is.
+    Place here() const;
+    [[noreturn]] void fail(const std::string& message) const;
+    /// The characters since the last begin() or end().
+    const std::string& text() const { return text_; }
+
+private:
+    struct Events;
+
+    std::string name_, text_;
+    std::unique_ptr<XML_ParserStruct, void (*)(XML_ParserStruct*)> parser_;
+    std::exception_ptr mistake_;
+    int depth_ = 0;
+};
+
+}  // namespace espalier
