@@ -2,6 +2,7 @@
 
 #include "espalier/base/file.h"
 
+#include "base/byte_order_mark.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -54,7 +55,7 @@ ParameterFile::ParameterFile(const Settings& table, const EnvironmentContext& co
 
 void ParameterFile::read() {
     const std::string text = read_text(path_);
-    std::size_t begin = 0;
+    std::size_t begin = byte_order_mark(text);
     for (int number = 1; begin < text.size(); ++number) {
         const std::size_t end = std::min(text.find('\n', begin), text.size());
         std::string line = text.substr(begin, end - begin);
