@@ -59,7 +59,7 @@ public:
           sky_(read_daylight(settings)),
           optics_(settings),
           organs_(settings, optics_.bands(), context.plants),
-          lamps_(read_lamps(settings, optics_.bands())),
+          lamps_(read_lamps(settings, optics_.bands(), context.warnings)),
           paths_(optics_, read_sensors(settings), read_path_options(settings, context)),
           days_(settings.number_or("days", 1, Range::positive())),
           count_(static_cast<std::uint32_t>(settings.integer_or("paths", 1 << 16, Range::between(64, most_paths)))),
