@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "environment/optics/organ_light.h"
 #include "environment/rays/light_paths.h"
+#include "environment/rays/program_rays.h"
 #include "environment/sky/daylight.h"
 #include "geometry/grids/voxel_values.h"
 
@@ -490,13 +491,18 @@ further bands as absorbed.BAND, mean (absorbed per leaf area over what falls on 
 bands whose reflectances and transmittances are not in one proportion a random error, because one path carries them all).
 Frame 0 is the beginning: its shares and rates are those of the first step's light, its amounts 0.
 
-)" + sky_help();
+)" + program_rays_help() +
+        "\n" + sky_help();
     return text;
 }
 
-const Registered<ProcessType> entry{{"ray-light",
-                                     "photons that drawn leaves and stems absorb: paths of light, scattered",
-                                     ray_light_help(), construct<RayLight>}};
+std::unique_ptr<EnvironmentProcess> make(Settings& settings, const EnvironmentContext& context, Fields& fields) {
+    if (settings.has("parameters")) return make_program_rays(settings, context);
+    return std::make_unique<RayLight>(settings, context, fields);
+}
+
+const Registered<ProcessType> entry{
+    {"ray-light", "photons that drawn leaves and stems absorb: paths of light, scattered", ray_light_help(), make}};
 
 }  // namespace
 }  // namespace espalier::environment

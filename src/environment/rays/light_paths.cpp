@@ -184,6 +184,7 @@ void LightPaths::follow(std::uint32_t number, std::uint32_t seed, Ends& ends) {
         const bool goes_on =
             met.kind == Met::Kind::soil ? scatter_from_soil(path, sample, ends) : scatter(path, met.hit, sample, ends);
         if (!goes_on) return;
+        if (bounce == options_.depth) return add(ends.escaped, path);
         path.is_first = false;
     }
 }
@@ -248,7 +249,7 @@ SideOptics LightPaths::optics_of(const LitTriangles::Owner& owner, bool on_back,
 }
 
 void LightPaths::note_meeting(const Path& path, const LitTriangles::Owner& owner, bool on_back) {
-    if (owner.kind == LitKind::solid) return;
+    if (owner.kind == LitKind::solid || (options_.only_scattered && path.is_first)) return;
     add(on_back && owner.kind == LitKind::leaf ? back_ : front_, owner.slot, path);
     if (!path.is_first) return;
     const auto add_units = [](std::uint64_t& sum, double weight) {
@@ -338,6 +339,7 @@ void LightPaths::add(OfBands& sums, const Path& path) const {
 
 void LightPaths::absorb(const LitTriangles::Owner& owner, const Path& path, Ends& ends) {
     if (owner.kind == LitKind::solid) return add(ends.solids, path);
+    if (options_.only_scattered && path.is_first) return add(ends.escaped, path);
     add(absorbed_, owner.slot, path);
 }
 

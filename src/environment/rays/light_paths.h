@@ -23,6 +23,8 @@ public:
         std::optional<Box> period;    ///< of a stand without an edge
         double residual = 0.001;      ///< where less of a path's light is left, that is absorbed where it is
         bool evenly = true;           ///< by Sobol's sequence, or by independent random numbers
+        std::uint32_t depth = 0;      ///< how often a path may meet something before it ends; 0: as often as it does
+        bool only_scattered = false;  ///< what a path brings to where it is first met is not counted
     };
 
     /// `optics` is kept by reference.
