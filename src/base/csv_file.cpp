@@ -63,13 +63,13 @@ std::string csv_number(double value) {
     return std::isfinite(value) ? format_exact(value) : "";
 }
 
-std::vector<std::string> csv_cells(std::string_view line) {
+std::vector<std::string> csv_cells(std::string_view line, char separator) {
     std::vector<std::string> cells(1);
     bool quoted = false;
     for (const char c : line) {
         if (c == '"') {
             quoted = !quoted;
-        } else if (c == ',' && !quoted) {
+        } else if (c == separator && !quoted) {
             cells.emplace_back();
         } else {
             cells.back() += c;

@@ -33,8 +33,8 @@ private:
 
 /// A value as CSV writes it: in quotes if it holds a comma, a quote or a line break.
 std::string csv_text(std::string_view text);
-/// The cells of a line, between commas; in quotes commas are text.
-std::vector<std::string> csv_cells(std::string_view line);
+/// The cells of a line, between commas or another separator; in quotes separators are text.
+std::vector<std::string> csv_cells(std::string_view line, char separator = ',');
 /// A number so that it reads back exactly; nothing for NaN and infinities.
 std::string csv_number(double value);
 

@@ -2,10 +2,14 @@
 
 #include "espalier/base/file.h"
 
+#include "base/byte_order_mark.h"
 #include "base/csv_file.h"
 #include "base/number.h"
 
+#include <algorithm>
+#include <array>
 #include <sstream>
+#include <string_view>
 
 namespace espalier {
 namespace {
@@ -17,21 +21,66 @@ std::string without_blanks(const std::string& text) {
     return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
 }
 
+/// What is most in the line outside of quotes.
+char separator_of(const std::string& line) {
+    char best = ',';
+    for (const char separator : {';', '\t'}) {
+        if (csv_cells(line, separator).size() > csv_cells(line, best).size()) best = separator;
+    }
+    return best;
+}
+
+std::string without_mark(std::string text, const std::string& path) {
+    text.erase(0, byte_order_mark(text));
+    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
+        throw UserError({path, 1, 0}, "this file is UTF-16: save it as CSV in UTF-8");
+    }
+    return text;
+}
+
+bool is_word_of_missing(std::string word) {
+    static constexpr std::array<std::string_view, 11> words{"",    "-",    ".",    "na",      "n/a",   "#n/a",
+                                                            "nan", "null", "none", "missing", "nodata"};
+    std::transform(word.begin(), word.end(), word.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
 }  // namespace
 
 std::optional<double> CsvRow::number(std::size_t column) const {
-    return column < cells.size() ? finite_number(cells[column]) : std::nullopt;
+    if (column >= cells.size()) return std::nullopt;
+    std::string cell = cells[column];
+    if (has_decimal_commas && std::count(cell.begin(), cell.end(), ',') == 1) {
+        std::replace(cell.begin(), cell.end(), ',', '.');
+    }
+    return finite_number(cell);
+}
+
+bool CsvRow::is_missing(std::size_t column) const {
+    if (column >= cells.size() || is_word_of_missing(cells[column])) return true;
+    // Weather files (EPW) write 9999 and 999999; loggers of Campbell Scientific 6999 and 7999, of either sign.
+    static constexpr std::array codes{9999.0,    99999.0, 999999.0, 9999999.0, -9999.0, -99999.0,
+                                      -999999.0, 6999.0,  -6999.0,  7999.0,    -7999.0};
+    const std::optional<double> value = number(column);
+    return value && std::find(codes.begin(), codes.end(), *value) != codes.end();
 }
 
 CsvRows::CsvRows(const std::filesystem::path& path, bool comments) : path_(path.string()) {
-    std::istringstream text(read_text(path));
+    std::istringstream text(without_mark(read_text(path), path_));
     std::string line;
     for (int number = 1; std::getline(text, line); ++number) {
         if (without_blanks(line).empty() || (comments && line.front() == '#')) continue;
+        if (rows_.empty()) separator_ = separator_of(line);
         CsvRow& row = rows_.emplace_back();
         row.line = number;
-        for (const std::string& cell : csv_cells(line)) row.cells.push_back(without_blanks(cell));
+        row.has_decimal_commas = separator_ != ',';
+        for (const std::string& cell : csv_cells(line, separator_)) row.cells.push_back(without_blanks(cell));
     }
+}
+
+const char* CsvRows::separators() const {
+    return separator_ == ',' ? "commas" : separator_ == ';' ? "semicolons" : "tabs";
 }
 
 }  // namespace espalier

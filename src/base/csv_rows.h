@@ -1,4 +1,4 @@
-// A table of comma-separated values, read whole: rows of cells that know their place.
+// A table of separated values, read whole: rows of cells that know their place.
 #pragma once
 
 #include "espalier/base/error.h"
@@ -14,23 +14,33 @@ struct CsvRow {
     int line = 0;                    ///< of the file, from 1
     std::vector<std::string> cells;  ///< without the blanks around them
 
-    /// A cell as a finite number; nothing if it is none, or is not there.
+    /// A cell as a finite number; nothing if it is none, or is not there. Where commas do not separate cells, one may
+    /// stand for the decimal point.
     std::optional<double> number(std::size_t column) const;
+    /// Whether a cell stands for a value that was not measured: empty, a word as NA, or a number that loggers and
+    /// weather files write instead of one, as 9999, -9999 or -6999.
+    bool is_missing(std::size_t column) const;
+
+    bool has_decimal_commas = false;
 };
 
 class CsvRows {
 public:
-    /// Leaves out empty lines and, if `comments`, those that begin with #. Throws UserError for a file that cannot be
-    /// read.
+    /// Leaves out empty lines and, if `comments`, those that begin with #. Cells are separated by commas, semicolons or
+    /// tabs, whichever are most in the first row; a byte-order mark is passed over. Throws UserError for a file that
+    /// cannot be read.
     CsvRows(const std::filesystem::path& path, bool comments);
 
     const std::vector<CsvRow>& rows() const { return rows_; }
+    /// "commas", "semicolons" or "tabs".
+    const char* separators() const;
     /// Of a row, and of a cell of it, counted from 0.
     Place place(const CsvRow& row) const { return {path_, row.line, 0}; }
     Place place(const CsvRow& row, std::size_t column) const { return {path_, row.line, static_cast<int>(column) + 1}; }
 
 private:
     std::string path_;
+    char separator_ = ',';
     std::vector<CsvRow> rows_;
 };
 

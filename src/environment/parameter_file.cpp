@@ -2,6 +2,7 @@
 
 #include "espalier/base/file.h"
 
+#include "base/byte_order_mark.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -45,7 +46,11 @@ std::string scene_key(const std::string& key) {
 }
 
 ParameterFile::ParameterFile(const Settings& table, const EnvironmentContext& context, std::vector<std::string> keys)
-    : table_(table), warnings_(context.warnings), keys_(std::move(keys)) {
+    : ParameterFile(table, context, std::move(keys), Dialect()) {}
+
+ParameterFile::ParameterFile(const Settings& table, const EnvironmentContext& context, std::vector<std::string> keys,
+                             Dialect dialect)
+    : table_(table), dialect_(dialect), warnings_(context.warnings), keys_(std::move(keys)) {
     table_.flag_or("verbose", false);
     keys_.emplace_back("verbose");
     if (const auto path = table_.path_if_any("parameters")) path_ = *path;
@@ -54,20 +59,29 @@ ParameterFile::ParameterFile(const Settings& table, const EnvironmentContext& co
 
 void ParameterFile::read() {
     const std::string text = read_text(path_);
-    std::size_t begin = 0;
+    std::size_t begin = byte_order_mark(text);
     for (int number = 1; begin < text.size(); ++number) {
         const std::size_t end = std::min(text.find('\n', begin), text.size());
         std::string line = text.substr(begin, end - begin);
         begin = end + 1;
         while (!line.empty() && line.back() == '\r') line.pop_back();
         if (line.find_first_not_of(" \t") == std::string::npos) continue;
+        if (dialect_.has_slashes && line.starts_with("//")) continue;
+        if (dialect_.goes_on && line.starts_with(':') && !lines_.empty()) {
+            lines_.back().value.append(1, ' ').append(line, 1);
+            continue;
+        }
         const std::size_t colon = std::min(line.find_first_of("\t:"), line.size());
         lines_.push_back(
             {line.substr(0, colon), line.substr(std::min(colon + 1, line.size())), Place{path_.string(), number, 1}});
         if (lines_.size() > most_lines) {
             throw UserError(lines_.back().place, fmt::format("more than {} lines of parameters", most_lines));
         }
-        const std::string& key = lines_.back().key;
+        std::string& key = lines_.back().key;
+        if (dialect_.any_case) {
+            std::transform(key.begin(), key.end(), key.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+        }
         if (std::find(keys_.begin(), keys_.end(), key) != keys_.end()) continue;
         warn(lines_.back(), fmt::format("the parameter '{}' is unknown and ignored{}", key, did_you_mean(key, keys_)));
     }
@@ -145,6 +159,19 @@ bool ParameterFile::flag(const std::string& key, bool fallback, std::initializer
 
 bool ParameterFile::has_numbers_of_cpfg() const {
     return table_.choice_or("numbers", has_file() ? "cpfg" : "exact", {"exact", "cpfg"}) == "cpfg";
+}
+
+bool ParameterFile::has(const std::string& key) const {
+    return last(key) != nullptr || table_.has(scene_key(key));
+}
+
+std::string ParameterFile::text(const std::string& key, const std::string& fallback) {
+    std::string value = fallback;
+    if (const Line* line = last(key)) {
+        const std::size_t first = line->value.find_first_not_of(" \t"), end = line->value.find_last_not_of(" \t");
+        value = first == std::string::npos ? "" : line->value.substr(first, end + 1 - first);
+    }
+    return table_.text_or(scene_key(key), value);
 }
 
 std::optional<std::filesystem::path> ParameterFile::file(const std::string& key) {

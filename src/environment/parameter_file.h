@@ -21,8 +21,22 @@ namespace espalier::environment {
 /// Every key is read exactly once by the process, through one of the look-ups; they throw UserError.
 class ParameterFile {
 public:
+    /// How the programs differ in what they make of a line.
+    struct Dialect {
+        bool any_case = false;     ///< keys are small letters, in files of any case
+        bool has_slashes = false;  ///< lines that begin with // are comments
+        bool goes_on = false;      ///< lines that begin with : go on with the values of the line before
+    };
+
     /// Reads the file that the key `parameters` names, if it does. `keys` are all that the process knows.
     ParameterFile(const Settings& table, const EnvironmentContext& context, std::vector<std::string> keys);
+    ParameterFile(const Settings& table, const EnvironmentContext& context, std::vector<std::string> keys,
+                  Dialect dialect);
+
+    /// Whether file or scene give it.
+    bool has(const std::string& key) const;
+    /// The whole value, without the blanks around it.
+    std::string text(const std::string& key, const std::string& fallback);
 
     double number(const std::string& key, double fallback, Range range = Range::any());
     /// The fraction is cut off, as the programs do.
@@ -54,6 +68,7 @@ private:
     void warn(const Line& line, const std::string& message);
 
     Settings table_;
+    Dialect dialect_;
     std::vector<Diagnostic>* warnings_;
     std::vector<std::string> keys_;
     std::filesystem::path path_;

@@ -2,6 +2,7 @@
 
 #include "espalier/base/error.h"
 
+#include "base/byte_order_mark.h"
 #include "base/characters.h"
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ void require_text(const std::string& text, const std::string& name) {
 std::string with_plain_lines(const std::string& text) {
     std::string plain;
     plain.reserve(text.size());
-    for (std::size_t k = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; k < text.size(); ++k) {
+    for (std::size_t k = byte_order_mark(text); k < text.size(); ++k) {
         const bool ends_line = text[k] == '\r';
         if (ends_line && k + 1 < text.size() && text[k + 1] == '\n') ++k;
         plain += ends_line ? '\n' : text[k];

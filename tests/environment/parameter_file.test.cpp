@@ -49,6 +49,23 @@ TEST_CASE("sizes are split at blanks, commas, colons, tabs and the letter x, and
     CHECK(two.file().numbers("grid size", {1, 1, 7}) == std::vector<double>{4, 5, 7});
 }
 
+TEST_CASE("a byte-order mark before the first key is passed over", "[environment][parameter file]") {
+    Read read("\xEF\xBB\xBFradius: 0.5\n");
+    CHECK(read.file().number("radius", 0) == 0.5);
+    CHECK(read.warnings.empty());
+}
+
+TEST_CASE("a program's dialect may know keys in any case, comments, and values that go on",
+          "[environment][parameter file]") {
+    Read read("Radius: 0.5\n// radius: 7\nsource direction: 0 1\n: 0 4\n");
+    ParameterFile file(read.table, read.context, {"radius", "source direction"}, {true, true, true});
+    CHECK(file.number("radius", 0) == 0.5);
+    CHECK(file.repeated("source direction", 3, 4) == std::vector<std::vector<double>>{{0, 1, 0, 4}});
+    CHECK(file.has("radius"));
+    CHECK_FALSE(file.has("grid size"));
+    CHECK(read.warnings.empty());
+}
+
 TEST_CASE("a key in the wrong case is passed over, with its place and the nearest known key",
           "[environment][parameter file]") {
     Read read("radius: 0.5\n\n3D case: one\r\n3d case: one\n");

@@ -83,7 +83,7 @@ std::vector<double> absorbed_by(const char* process, const std::string& lines, c
     ModuleString string = plant.string;
     const std::vector<PlantView> views{{0, plant.model.get(), &string, &plant.interpretation}};
     std::vector<ModuleString*> strings{&string};
-    light.exchange({0, 0, 1, views}, strings);
+    light.exchange({1, 1, 1, views}, strings);
     std::vector<double> absorbed;
     const auto values = light.organ_values("light.absorbed", 0);
     for (const float value : *values) absorbed.push_back(value / 86400);

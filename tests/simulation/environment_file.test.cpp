@@ -46,6 +46,9 @@ TEST_CASE_METHOD(EnvironmentFolder, "the executable names the process, its plain
         CHECK_FALSE(file.routed);
     }
     CHECK_FALSE(read("executable: shape\n").processes[0].second.has("parameters"));
+    CHECK(read("\xEF\xBB\xBF"
+               "executable: shape\n")
+              .diagnostics.empty());
     CHECK(read("executable: shape plant.spec more -x\n").diagnostics.size() == 2);
 }
 
@@ -92,12 +95,24 @@ TEST_CASE_METHOD(EnvironmentFolder, "a process nobody provides is an error that 
 
 TEST_CASE_METHOD(EnvironmentFolder, "a program of cpfg that is missing is an error that names what is near to it",
                  "[simulation]") {
-    for (const auto& [program, near] : {std::pair{"QuasiMC", "ray-light"}, {"soil", "soil-water"}}) {
-        const std::string text =
-            message("turtle position: %f %f %f\nexecutable: " + std::string(program) + " a.spec\n");
-        CHECK_THAT(text, Contains("plant.e:2") && Contains("in purpose is '" + std::string(near) + "'"));
-    }
+    const std::string text = message("turtle position: %f %f %f\nexecutable: soil a.spec\n");
+    CHECK_THAT(text, Contains("plant.e:2") && Contains("in purpose is 'soil-water'"));
     CHECK_THAT(message("executable: shap plant.spec\n"), !Contains("in purpose"));
+}
+
+TEST_CASE_METHOD(EnvironmentFolder, "programs of cpfg that follow rays are ray-light, which reads their parameters",
+                 "[simulation]") {
+    for (const std::string program : {"QuasiMC", "MonteCarlo", "radiosity"}) {
+        const EnvironmentFile file = read("executable: " + program + " -e plant.e plant.spec -no_xserver\n");
+        REQUIRE(file.processes.size() == 1);
+        CHECK(file.processes[0].first == program);
+        const Settings& table = file.processes[0].second;
+        CHECK(table.text("process") == "ray-light");
+        CHECK(table.text("program") == program);
+        CHECK(table.path("parameters") == folder().path() / "plant.spec");
+        CHECK(file.diagnostics.empty());
+        CHECK_THAT(message("executable: " + program + "\n"), Contains("plant.e:1") && Contains("FILE.spec"));
+    }
 }
 
 TEST_CASE_METHOD(EnvironmentFolder, "a program of one's own is named with its folder", "[simulation]") {

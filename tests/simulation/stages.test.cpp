@@ -115,6 +115,7 @@ TEST_CASE("light falls on what stages draw, and answers the modules that bear it
                                         "sky = { par = 1000, diffuse = 1 }\n",
                                     "scene.toml", folder.path()));
         world.start();
+        world.step();  // frame 0 spends no light
         std::map<std::string, double> found;
         for (const Quantity& quantity : world.environment().statistics(0)) found[quantity.name] = quantity.value;
         const auto& answers = world.string(0).parameters;

@@ -56,14 +56,15 @@ glm::dvec3 sun_at(double hour) {
 
 void check_day(OpenDay& studio) {
     // The sun is looked at in each half of the hour; the half nearer to noon has more light.
-    for (const auto& [step, hour] : {std::pair{6, 6.75}, {9, 9.75}, {11, 11.75}, {12, 12.25}, {15, 15.25}}) {
+    // Step 7 ends at seven hours.
+    for (const auto& [step, hour] : {std::pair{7, 6.75}, {10, 9.75}, {12, 11.75}, {13, 12.25}, {16, 15.25}}) {
         INFO("step " << step);
         const Json sky = studio.sky_of(step);
         const auto told = sky["sun"].get<std::array<double, 3>>();
         CHECK(glm::length(glm::dvec3(told[0], told[1], told[2]) - sun_at(hour)) < 1e-6);
         CHECK(sky["diffuse"].get<double>() == Approx(0.25).epsilon(1e-6));
         // The mean of the hour, of which half is PAR.
-        const double light = 800 - 800 / 6.0 * std::abs(step + 0.5 - 12);
+        const double light = 800 - 800 / 6.0 * std::abs(step - 0.5 - 12);
         CHECK(sky["par"].get<double>() == Approx(0.5 * 4.57 * light).epsilon(1e-6));
     }
     CHECK(studio.sky_of(2)["sun"].is_null());
@@ -87,7 +88,7 @@ TEST_CASE("the sun is white above and red near the horizon", "[studio][sky]") {
     OpenDay studio;
     studio.begin();
     studio.wait_until_grown();
-    const auto low = studio.sky_of(6)["colour"].get<std::array<double, 3>>();
+    const auto low = studio.sky_of(7)["colour"].get<std::array<double, 3>>();
     const auto high = studio.sky_of(12)["colour"].get<std::array<double, 3>>();
     CHECK(high[0] == 1);
     CHECK(high[2] > 0.7);

@@ -22,6 +22,7 @@ std::string of_band(const std::string& quantity, const std::vector<LightBand>& b
 OrganLight::OrganLight(const Settings& settings, const std::vector<LightBand>& bands, std::size_t plants)
     : bands_(bands),
       in_energy_(settings.choice_or("unit", "photons", {"photons", "energy"}) == "energy"),
+      keeps_in_dark_(settings.choice_or("dark", "zero", {"zero", "keep"}) == "keep"),
       plants_(plants),
       starts_(plants + 1, 0) {
     for (const LightBand& band : bands_) units_.push_back(in_energy_ ? 1 / band.photons : 1);  // MJ of a mol
@@ -30,6 +31,8 @@ OrganLight::OrganLight(const Settings& settings, const std::vector<LightBand>& b
 
 void OrganLight::begin(const WorldView& world, const Daylight& light) {
     light_ = light;
+    has_time_passed_ = world.step > 0;
+    keeps_share_ = keeps_in_dark_ && !(light.on_ground > 0);
     for (std::size_t b = 0; b < bands_.size(); ++b) {
         factors_[b] = light.energy > 0 ? light.photons(bands_[b]) / light.on_ground : 1;  // lamps have their own
     }
@@ -50,7 +53,7 @@ OrganLight::Answered OrganLight::answered_by(const Query& query, std::size_t off
     const double area = area_of(slot);
     const double absorbed = meetings_[slot * bands() + band].absorbed;
     const double per_area = area > 0 ? absorbed / area : 0;
-    const double in_time = light_.seconds > 0 ? 1e6 * amount(per_area, band) / light_.seconds : 0;
+    const double in_time = light_.seconds > 0 ? 1e6 * in_unit(per_area, band) / light_.seconds : 0;
     return {area, light_.on_ground > 0 ? per_area / light_.on_ground : 0, amount(absorbed, band), in_time};
 }
 
@@ -105,7 +108,7 @@ double OrganLight::value(const std::string& what, std::size_t slot, std::size_t 
     if (what == "reflected") return amount(meeting.front + meeting.back - meeting.absorbed, band);
     if (what == "error") return amount(meeting.error, band);
     const double area = area_of(slot);
-    return area > 0 && light_.seconds > 0 ? 1e6 * amount(meeting.absorbed, band) / area / light_.seconds : no_value;
+    return area > 0 && light_.seconds > 0 ? 1e6 * in_unit(meeting.absorbed, band) / area / light_.seconds : no_value;
 }
 
 std::shared_ptr<const std::vector<float>> OrganLight::organ_values(const std::string& name, std::uint32_t plant) const {
@@ -138,6 +141,8 @@ std::shared_ptr<const std::vector<float>> OrganLight::organ_values(const std::st
 const std::string& OrganLight::help() {
     static const std::string text =
         R"(unit          "photons": light is answered, counted and recorded in mol, and in umol m-2 s-1; or "energy": MJ and W m-2
+dark          "zero": in a step without light f is 0; or "keep": f stays what it was, so that models which shed leaves
+              by their f do not shed all of them at night. e and m are 0 in any case
 )";
     return text;
 }

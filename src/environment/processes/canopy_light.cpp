@@ -45,7 +45,7 @@ public:
     CanopyLight(Settings& settings, const EnvironmentContext& context, Fields& fields)
         : name_(context.name),
           memory_(context.memory),
-          sky_(settings.table("sky"), least_rise),
+          sky_(settings.table("sky"), least_rise, context.warnings),
           optics_(settings),
           organs_(settings, optics_.bands(), context.plants),
           angles_(read_angles(settings)),
@@ -59,14 +59,15 @@ public:
           plants_(context.plants) {
         if (settings.flag_or("periodic", false)) read_period(settings, context);
         for (Settings table : settings.tables("solids")) solids_.push_back(read_shape(table));
-        fields.provide({name_, "mol/m2", "photons across all directions in a step", nullptr, true,
-                        [this] { return grid_of(first_band().fluence); }});
+        fields.provide({name_, "mol/m2", "photons across all directions in a step", nullptr, true, [this] {
+                            return grid_of(organs_.has_time_passed() ? first_band().fluence : std::vector<float>());
+                        }});
         fields.provide({name_ + ".leaf_area_density", "m2/m3", "leaf area per volume", nullptr, true,
                         [this] { return grid_of(leaves_.densities(voxels_)); }});
     }
 
     void advance(const WorldView& world, std::span<const Query> queries, Fields&) override {
-        light_ = sky_.over(world.time * days_, world.dt * days_);
+        light_ = sky_.of_step(world.step, world.dt * days_);
         organs_.begin(world, light_);
         collect(world, queries);
         lay_voxels(queries);
@@ -323,6 +324,7 @@ Of organs a timeline can record absorbed, flux, front, back, reflected, each for
 Statistics of a plant: absorbed, of further bands absorbed.BAND, leaf_area (m2), mean (absorbed per area over what falls
 on open level ground); of the world: incoming (per m2 of open level ground), passed (share of the light over the voxels
 that meets nothing), for each band soil and escaped (shares of the light), closure (all shares, less 1).
+Frame 0 is the beginning: its shares and rates are those of the first step's light, its amounts 0.
 
 )" + sky_help();
     return text;

@@ -51,6 +51,14 @@ private:
         throw UserError(table_.place(row, column), fmt::format("'{}' is not a number", row.cells[column]));
     }
 
+    double measured(const CsvRow& row, std::size_t column) const {
+        const double value = number(row, column);
+        if (!row.is_missing(column)) return value;
+        throw UserError(
+            table_.place(row, column),
+            fmt::format("'{}' stands for a value that was not measured: a profile has no gaps", row.cells[column]));
+    }
+
     // Tables run downwards as a rule; the heights are kept rising.
     void read_heights(const CsvRow& row) {
         for (std::size_t column = 1; column < row.cells.size(); ++column) heights_.push_back(number(row, column));
@@ -76,7 +84,7 @@ private:
         }
         times_.push_back(time);
         std::vector<double>& line = lines_.emplace_back();
-        for (std::size_t column = 1; column < row.cells.size(); ++column) line.push_back(number(row, column));
+        for (std::size_t column = 1; column < row.cells.size(); ++column) line.push_back(measured(row, column));
         if (falling_) std::reverse(line.begin(), line.end());
     }
 
@@ -124,7 +132,7 @@ const Registered<ProcessType> entry{
 
 Above the highest and below the lowest height of the table, their values hold.
 
-file   required; a table of comma-separated values, relative to the scene
+file   required; a table, relative to the scene, whose cells commas, semicolons or tabs separate
 
 The first line of the table has heights in metres, the others a time in the scene's unit and a value for each height:
 "time, 0, -0.2, -0.6", then "0, 8, 10, 11", then "30, 16, 14, 12". A table of one line of values holds for ever; others

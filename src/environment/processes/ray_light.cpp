@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "environment/optics/organ_light.h"
 #include "environment/rays/light_paths.h"
+#include "environment/rays/program_rays.h"
 #include "environment/sky/daylight.h"
 #include "geometry/grids/voxel_values.h"
 
@@ -14,6 +15,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace espalier::environment {
 namespace {
@@ -21,6 +24,7 @@ namespace {
 constexpr double least_elevation = 0.0349;  // sine of 2 degrees
 constexpr int trials = 8;
 constexpr std::uint32_t most_paths = 1U << 27;
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double bytes_per_triangle = 340;  // corners twice, owner, and Embree's boxes
 
 LightPaths::Options read_path_options(const Settings& settings, const EnvironmentContext& context) {
@@ -37,9 +41,9 @@ LightPaths::Options read_path_options(const Settings& settings, const Environmen
     return options;
 }
 
-std::optional<DaylightSeries> read_daylight(const Settings& settings) {
+std::optional<DaylightSeries> read_daylight(const Settings& settings, const EnvironmentContext& context) {
     if (settings.has("lamps") && !settings.has("sky")) return std::nullopt;
-    return DaylightSeries(settings.table("sky"), least_elevation);
+    return DaylightSeries(settings.table("sky"), least_elevation, context.warnings);
 }
 
 /// Level, along the axes, in square cells: such a sensor is a field.
@@ -56,14 +60,16 @@ public:
         : name_(context.name),
           seed_(context.seed),
           memory_(context.memory),
-          sky_(read_daylight(settings)),
+          sky_(read_daylight(settings, context)),
           optics_(settings),
           organs_(settings, optics_.bands(), context.plants),
-          lamps_(read_lamps(settings, optics_.bands())),
+          lamps_(read_lamps(settings, optics_.bands(), context.warnings)),
           paths_(optics_, read_sensors(settings), read_path_options(settings, context)),
           days_(settings.number_or("days", 1, Range::positive())),
           count_(static_cast<std::uint32_t>(settings.integer_or("paths", 1 << 16, Range::between(64, most_paths)))),
           accuracy_(settings.number_or("accuracy", 0, Range::between(0, 1))),
+          paths_place_(settings.place("paths")),
+          warnings_(context.warnings),
           plants_(context.plants) {
         read_solids(settings);
         if (!lamps_.empty()) read_reference(settings);
@@ -71,7 +77,7 @@ public:
     }
 
     void advance(const WorldView& world, std::span<const Query>, Fields&) override {
-        light_ = sky_ ? sky_->over(world.time * days_, world.dt * days_) : Daylight();
+        light_ = sky_ ? sky_->of_step(world.step, world.dt * days_) : Daylight();
         const double lamp_seconds = 3600 * lit_hours_ * world.dt * days_;
         if (!lamps_.empty()) light_.seconds = std::max(light_.seconds, lamp_seconds);
         if (!sky_) light_.on_ground = 1e-6 * on_reference_ * lamp_seconds;
@@ -82,15 +88,17 @@ public:
         for (std::size_t b = 0; b < optics_.bands().size(); ++b) factors.push_back(organs_.factor(b));
         paths_.set(triangles_, organs_.slots(), light_, lamps_, lamp_seconds, factors);
         const auto seed = static_cast<std::uint32_t>(mix(seed_, static_cast<std::uint64_t>(world.step)));
-        std::uint32_t count = count_;
-        trace(count, seed);
-        while (accuracy_ > 0 && worst_error() > accuracy_ && count <= most_paths / 4) {
-            count *= 4;
-            trace(count, seed);
+        traced_ = count_;
+        trace(traced_, seed);
+        while (accuracy_ > 0 && worst_error() > accuracy_ && traced_ <= most_paths / 4) {
+            traced_ *= 4;
+            trace(traced_, seed);
         }
+        warn_of_accuracy(world.step);
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+        warn_of_unmet(queries, world.step);
         for (std::size_t i = 0; i < queries.size(); ++i) {
             organs_.answer(queries[i], 1, answers[i],
                            [&](std::size_t band) { return open_share(queries[i].pose.position, band); });
@@ -135,7 +143,7 @@ public:
 
 private:
     struct Estimate {
-        double mean = 0, error = 0;  ///< mol of PAR before the band's factor; the standard error of the mean
+        double mean = 0, error = 0;  ///< mol of PAR before the band's factor; its standard error, NaN if unknown
     };
     struct Balance {
         double soil = 0, escaped = 0, solids = 0, closure = 0;  ///< shares of a band's light
@@ -279,18 +287,34 @@ private:
         return first;
     }
 
+    bool is_met(std::size_t slot) {
+        for (std::size_t b = 0; b < bands(); ++b) {
+            const OrganLight::Meeting& meeting = organs_.meeting(slot, b);
+            if (meeting.front + meeting.back > 0) return true;
+        }
+        return false;
+    }
+
     /// Standard errors of organs, their areas, and what the sun would bring them without shade.
     void finish() {
-        for (std::size_t slot = 0; slot < organs_.slots(); ++slot) {
-            for (std::size_t b = 0; b < bands(); ++b) {
-                OrganLight::Meeting& meeting = organs_.meeting(slot, b);
-                const double variance = std::max(0.0, meeting.error - meeting.absorbed * meeting.absorbed);
-                meeting.error = std::sqrt(variance / (trials - 1));
+        const bool is_dark = !(paths_.light() > 0);
+        plants_met_.assign(plants_, false);
+        surfaces_.assign(organs_.slots(), 0);
+        for (std::size_t plant = 0; plant < plants_; ++plant) {
+            for (std::size_t slot = organs_.start(plant); slot < organs_.start(plant + 1); ++slot) {
+                const bool met = is_met(slot);
+                plants_met_[plant] = plants_met_[plant] || met;
+                for (std::size_t b = 0; b < bands(); ++b) {
+                    OrganLight::Meeting& meeting = organs_.meeting(slot, b);
+                    const double variance = std::max(0.0, meeting.error - meeting.absorbed * meeting.absorbed);
+                    meeting.error = met || is_dark ? std::sqrt(variance / (trials - 1)) : unknown;
+                }
             }
         }
         triangles_.visit_areas([&](const LitTriangles::Owner& owner, const glm::dvec3& area) {
             if (owner.kind == LitKind::solid) return;
             const double seen = owner.kind == LitKind::leaf ? 1 : 0.5;  // of a closed thing, the other half is behind
+            surfaces_[owner.slot] += seen * glm::length(area);
             if (owner.kind == LitKind::leaf) organs_.leaf_area(owner.slot) += glm::length(area);
             if (owner.kind == LitKind::body) organs_.body_area(owner.slot) += seen * glm::length(area);
             for (const LightBeam& beam : light_.beams) {
@@ -304,6 +328,7 @@ private:
         if (by_plant_.empty()) return {};
         const double* const sums = &by_plant_[(plant * bands() + band) * trials];
         Estimate found;
+        if (is_unknown(plant)) return {0, unknown};
         for (int i = 0; i < trials; ++i) found.mean += sums[i] / trials;
         double squares = 0;
         for (int i = 0; i < trials; ++i) squares += (sums[i] - found.mean) * (sums[i] - found.mean);
@@ -311,14 +336,72 @@ private:
         return found;
     }
 
-    /// The largest relative standard error of a plant.
+    double surface_of(std::size_t plant) const {
+        const auto first = surfaces_.begin();
+        return std::accumulate(first + static_cast<std::ptrdiff_t>(organs_.start(plant)),
+                               first + static_cast<std::ptrdiff_t>(organs_.start(plant + 1)), 0.0);
+    }
+
+    /// Whether a plant is drawn and there is light, but no path has met it.
+    bool is_unknown(std::size_t plant) const {
+        return !plants_met_[plant] && paths_.light() > 0 && surface_of(plant) > 0;
+    }
+
+    /// About how many of the paths would meet so many m2 on open ground.
+    double paths_in_the_open(double surface) const {
+        return paths_.light() > 0 ? traced_ * light_.on_ground * surface / paths_.light() : 0;
+    }
+
+    /// The largest relative standard error of a plant; infinite where none of few paths has met one. A plant that many
+    /// would have met in the open stands in the dark.
     double worst_error() const {
+        constexpr double many = 4096;
         double worst = 0;
         for (std::size_t plant = 0; plant < plants_; ++plant) {
             const Estimate found = estimate(plant, 0);
             if (found.mean > 0) worst = std::max(worst, found.error / found.mean);
+            if (std::isnan(found.error) && paths_in_the_open(surface_of(plant)) < many) {
+                worst = std::numeric_limits<double>::infinity();
+            }
         }
         return worst;
+    }
+
+    void warn(const std::string& message) const {
+        if (warnings_) warnings_->push_back({Diagnostic::Severity::warning, paths_place_, message});
+    }
+
+    void warn_of_accuracy(int step) {
+        const double worst = accuracy_ > 0 && !warned_of_accuracy_ ? worst_error() : 0;
+        if (worst <= accuracy_) return;
+        warned_of_accuracy_ = true;
+        warn(fmt::format(
+            "in step {}, {} paths are not enough for '{}': the standard error of a plant is {} of its light, "
+            "where accuracy = {:g} was asked for",
+            step, traced_, name_, std::isinf(worst) ? "unknown" : fmt::format("{:.2g}", worst), accuracy_));
+    }
+
+    /// Of organs that are asked for, where the paths are too few to tell that they are in the dark.
+    void warn_of_unmet(std::span<const Query> queries, int step) {
+        constexpr double enough = 100;
+        if (warned_of_unmet_ || !(paths_.light() > 0)) return;
+        std::size_t count = 0;
+        double largest = 0;
+        for (const Query& query : queries) {
+            if (query.plant >= plants_) continue;
+            const std::size_t slot = organs_.start(query.plant) + query.module + 1;
+            if (slot >= organs_.start(query.plant + 1) || !(surfaces_[slot] > 0) || is_met(slot)) continue;
+            if (paths_in_the_open(surfaces_[slot]) >= enough) continue;
+            ++count;
+            largest = std::max(largest, surfaces_[slot]);
+        }
+        if (count == 0) return;
+        warned_of_unmet_ = true;
+        warn(fmt::format(
+            "in step {}, no path of '{}' met {} of the organs that are asked for: their light is answered as "
+            "0, but is unknown. On open ground about {:.2g} of the {} paths would meet the largest of them: "
+            "give more 'paths', or an 'accuracy'",
+            step, name_, count, paths_in_the_open(largest), traced_));
     }
 
     double open_share(const glm::dvec3& place, std::size_t band) const {
@@ -355,12 +438,18 @@ private:
     double days_;
     std::uint32_t count_;
     double accuracy_;
+    Place paths_place_;
+    std::vector<Diagnostic>* warnings_;
+    bool warned_of_accuracy_ = false, warned_of_unmet_ = false;
     std::size_t plants_;
     std::vector<std::shared_ptr<const Shape>> solids_;
     double solid_voxel_ = 0.05, lit_hours_ = 24;
     double on_reference_ = 0;  ///< umol m-2 s-1 of lamps
 
     Daylight light_;  ///< all that follows is of this step
+    std::uint32_t traced_ = 0;
+    std::vector<bool> plants_met_;
+    std::vector<double> surfaces_;  ///< m2 of each module's leaves, and half that of closed things
     LitTriangles triangles_;
     std::vector<double> by_plant_;     ///< mol, by plant, band and trial
     std::vector<double> sensor_sums_;  ///< mol/m2, by cell and band
@@ -381,8 +470,10 @@ the plants of the step are drawn. What is not absorbed is scattered as Lambert's
 ?name(f, m, e)  -> e: umol m-2 s-1 that the leaves absorb while there is light
 Three more parameters for each further band tell the same of it.
 
-paths         65536: paths of light in each step. They are 8 independent trials, whose spread gives the standard error
-accuracy      0: the standard error that each plant's sum may have, as a share of it; paths grow until it is reached
+paths         65536: paths of light in each step. They are 8 independent trials, whose spread gives the standard error.
+              Where no path meets a plant or an organ, its light is answered as 0 and its error is unknown: an empty cell
+accuracy      0: the standard error that each plant's sum may have, as a share of it; paths grow until it is reached, and
+              for a plant that none has met until 4096 would have in the open
 sampling      "sobol", even; or "random", plain Monte Carlo, for comparisons
 residual      0.001: a path ends where less than this share of its light is left
 days          1: days that a unit of time stands for
@@ -396,15 +487,22 @@ solids        [[solids]] tables of shapes with bounds; their surfaces are made w
 Of organs a timeline can record absorbed, flux, front, back, reflected and error, each for every band, sunlit and
 brightest. Statistics of a plant: leaf_area (m2, one side), absorbed (mol) with its standard error absorbed_error, also of
 further bands as absorbed.BAND, mean (absorbed per leaf area over what falls on open level ground); of the world: incoming
-(per m2 of it), for each band soil and escaped (shares of the light), closure (all shares, less 1).
+(per m2 of it), for each band soil and escaped (shares of the light), closure (all shares, less 1: rounding, and of several
+bands whose reflectances and transmittances are not in one proportion a random error, because one path carries them all).
+Frame 0 is the beginning: its shares and rates are those of the first step's light, its amounts 0.
 
-)" + sky_help();
+)" + program_rays_help() +
+        "\n" + sky_help();
     return text;
 }
 
-const Registered<ProcessType> entry{{"ray-light",
-                                     "photons that drawn leaves and stems absorb: paths of light, scattered",
-                                     ray_light_help(), construct<RayLight>}};
+std::unique_ptr<EnvironmentProcess> make(Settings& settings, const EnvironmentContext& context, Fields& fields) {
+    if (settings.has("parameters")) return make_program_rays(settings, context);
+    return std::make_unique<RayLight>(settings, context, fields);
+}
+
+const Registered<ProcessType> entry{
+    {"ray-light", "photons that drawn leaves and stems absorb: paths of light, scattered", ray_light_help(), make}};
 
 }  // namespace
 }  // namespace espalier::environment

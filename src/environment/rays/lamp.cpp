@@ -1,10 +1,8 @@
 #include "environment/rays/lamp.h"
 
-#include "espalier/base/file.h"
 #include "espalier/base/math.h"
 
-#include "base/number.h"
-#include "base/text.h"
+#include "environment/rays/ies_file.h"
 #include "geometry/vectors.h"
 
 #include <fmt/format.h>
@@ -21,71 +19,6 @@ namespace {
 
 using std::numbers::pi;
 
-/// The numbers of an IES file behind its line TILT=.
-class IesNumbers {
-public:
-    explicit IesNumbers(const std::filesystem::path& path) : path_(path) {
-        const std::string text = read_text(path);
-        const std::size_t tilt = text.find("TILT=");
-        if (tilt == std::string::npos) refuse("it has no line TILT=, so it is no file of IES LM-63");
-        const std::size_t end = text.find('\n', tilt);
-        if (end == std::string::npos) refuse("it ends behind TILT=");
-        words_ = words_of(std::string_view(text).substr(end), " \t\r\n,");
-        if (text.compare(tilt, 12, "TILT=INCLUDE") != 0) return;
-        take();  // how the lamp hangs; then pairs of angles and factors, which lamps of today do not have
-        const auto pairs = static_cast<std::size_t>(take_count("angles of TILT"));
-        for (std::size_t i = 0; i < 2 * pairs; ++i) take();
-    }
-
-    double take() {
-        if (next_ == words_.size()) refuse("it ends before all of its numbers");
-        const std::string& word = words_[next_++];
-        const auto number = finite_number(word.starts_with('+') ? std::string_view(word).substr(1) : word);
-        if (!number) refuse(fmt::format("'{}' is no number", word));
-        return *number;
-    }
-    int take_count(const char* what) {
-        const double count = take();
-        if (!(count >= 1 && count <= 10000 && count == std::floor(count))) {
-            refuse(fmt::format("the number of {} is {:g}", what, count));
-        }
-        return static_cast<int>(count);
-    }
-    /// So many angles that rise.
-    std::vector<double> take_angles(int count) {
-        std::vector<double> angles;
-        for (int i = 0; i < count; ++i) {
-            angles.push_back(take());
-            if (i > 0 && !(angles[i] > angles[i - 1])) refuse("its angles do not rise");
-        }
-        return angles;
-    }
-    [[noreturn]] void refuse(const std::string& why) const { throw UserError({path_.string(), 0, 0}, why); }
-
-private:
-    std::filesystem::path path_;
-    std::vector<std::string> words_;
-    std::size_t next_ = 0;
-};
-
-/// Between the values at rising angles; 0 beyond the last.
-double between(const std::vector<double>& angles, const double* values, double at) {
-    if (at < angles.front() || at > angles.back()) return 0;
-    const auto after = std::upper_bound(angles.begin(), angles.end(), at) - angles.begin();
-    if (after == static_cast<std::ptrdiff_t>(angles.size())) return values[after - 1];
-    const double t = (at - angles[after - 1]) / (angles[after] - angles[after - 1]);
-    return (1 - t) * values[after - 1] + t * values[after];
-}
-
-/// Degrees round the axis as the file's half, quarter or whole circle has them.
-double mirrored(double degrees, double last) {
-    if (last == 0) return 0;
-    if (last <= 90 && degrees > 180) degrees = 360 - degrees;
-    if (last <= 90 && degrees > 90) degrees = 180 - degrees;
-    if (last <= 180 && degrees > 180) degrees = 360 - degrees;
-    return degrees;
-}
-
 /// A direction at a cosine from the axis.
 glm::dvec3 about(const Lamp& lamp, double cosine, double round) {
     const auto [sine_round, cosine_round] = math::sine_and_cosine(round);
@@ -93,7 +26,7 @@ glm::dvec3 about(const Lamp& lamp, double cosine, double round) {
     return cosine * lamp.axis + sine * (cosine_round * lamp.x + sine_round * lamp.y);
 }
 
-Lamp read_lamp(const Settings& table, const std::vector<LightBand>& bands) {
+Lamp read_lamp(const Settings& table, const std::vector<LightBand>& bands, std::vector<Diagnostic>* warnings) {
     Lamp lamp;
     const std::string kind = table.choice_or("kind", "point", {"point", "spot", "area", "ies"});
     lamp.place = table.vector("at");
@@ -116,7 +49,7 @@ Lamp read_lamp(const Settings& table, const std::vector<LightBand>& bands) {
         lamp.size = {size[0], size[1]};
     } else if (kind == "ies") {
         lamp.kind = Lamp::Kind::ies;
-        lamp.table = std::make_shared<IntensityTable>(IntensityTable::read_ies(table.path("file")));
+        lamp.table = std::make_shared<IntensityTable>(IntensityTable::read_ies(table.path("file"), warnings));
     }
     double sum = 0;
     for (std::size_t b = 0; b < bands.size(); ++b) {
@@ -154,35 +87,13 @@ void IntensityTable::add_up() {
     for (double& sum : sums_) sum /= all;
 }
 
-IntensityTable IntensityTable::read_ies(const std::filesystem::path& path) {
-    IesNumbers numbers(path);
-    numbers.take();  // lamps
-    numbers.take();  // lumens of each
-    numbers.take();  // multiplier
-    const int vertical = numbers.take_count("vertical angles"), horizontal = numbers.take_count("horizontal angles");
-    if (numbers.take() != 1) numbers.refuse("its photometry is not of type C");
-    for (int i = 0; i < 7; ++i) numbers.take();  // units, three lengths, ballast, future use, watts
-    const std::vector<double> down = numbers.take_angles(vertical), round = numbers.take_angles(horizontal);
-    if (down.front() < 0 || down.back() > 180 || round.front() != 0 || round.back() > 360) {
-        numbers.refuse("its angles must run from 0 to at most 180 degrees, and to 0, 90, 180 or 360 round the axis");
+IntensityTable IntensityTable::read_ies(const std::filesystem::path& path, std::vector<Diagnostic>* warnings) {
+    const IesFile file(path);
+    const Place place{path.string(), 0, 0};
+    for (const std::string& unused : file.unused()) {
+        if (warnings) warnings->push_back({Diagnostic::Severity::warning, place, unused});
     }
-    std::vector<std::vector<double>> candela;
-    double sum = 0;
-    for (int k = 0; k < horizontal; ++k) {
-        candela.emplace_back();
-        for (int i = 0; i < vertical; ++i) {
-            candela.back().push_back(numbers.take());
-            if (candela.back().back() < 0) numbers.refuse("it has a light below 0");
-            sum += candela.back().back();
-        }
-    }
-    if (!(sum > 0)) numbers.refuse("it has no light in any direction");
-    return of([&](double angle, double turn) {
-        const double degrees = glm::degrees(angle);
-        std::vector<double> at_angle;
-        for (const std::vector<double>& half : candela) at_angle.push_back(between(down, half.data(), degrees));
-        return between(round, at_angle.data(), mirrored(glm::degrees(turn), round.back()));
-    });
+    return of([&](double angle, double turn) { return file.intensity(glm::degrees(angle), glm::degrees(turn)); });
 }
 
 double IntensityTable::per_steradian(double angle, double round) const {
@@ -251,9 +162,10 @@ double Lamp::on_level_ground(const glm::dvec3& at) const {
     return sum / (parts * parts);
 }
 
-std::vector<Lamp> read_lamps(const Settings& settings, const std::vector<LightBand>& bands) {
+std::vector<Lamp> read_lamps(const Settings& settings, const std::vector<LightBand>& bands,
+                             std::vector<Diagnostic>* warnings) {
     std::vector<Lamp> lamps;
-    for (const Settings& table : settings.tables("lamps")) lamps.push_back(read_lamp(table, bands));
+    for (const Settings& table : settings.tables("lamps")) lamps.push_back(read_lamp(table, bands, warnings));
     return lamps;
 }
 
@@ -262,7 +174,8 @@ const std::string& lamps_help() {
         R"(lamps         [[lamps]] tables. With lamps and no table `sky` there is no daylight; light is then compared with that of
               the lamps on level ground at `reference`
   kind        "point", the same to all sides; "spot", the same within `angle` degrees of its axis; "area", a rectangle
-              of `size` that shines as Lambert's law says; "ies", as the `file` of its maker says (IES LM-63, type C)
+              of `size` that shines as Lambert's law says; "ies", a point that shines as the `file` of its maker says (IES
+              LM-63, type C), whose lumens, watts and sizes have no effect
   at          [x, y, z] m: its place, the middle of an area
   towards     [0, -1, 0]: its axis;  side  where a file's angle 0 round the axis lies, and an area's first side
   photons     umol/s of the first band; photons_nir and so on for other bands, 0

@@ -19,8 +19,8 @@ public:
     /// `angle` runs from the axis, 0 to pi, `round` from 0 to 2 pi; `intensity` in any unit. Cells of equal steps.
     template <class Intensity>
     static IntensityTable of(const Intensity& intensity);
-    /// A file of IES LM-63, photometric type C. Throws UserError naming the file.
-    static IntensityTable read_ies(const std::filesystem::path& path);
+    /// A file of IES LM-63, photometric type C. Throws UserError naming the file; warns of what it says without effect.
+    static IntensityTable read_ies(const std::filesystem::path& path, std::vector<Diagnostic>* warnings = nullptr);
 
     /// Share of all light per steradian.
     double per_steradian(double angle, double round) const;
@@ -60,7 +60,8 @@ private:
 };
 
 /// Reads `[[lamps]]` tables; see `lamps_help`. Throws UserError.
-std::vector<Lamp> read_lamps(const Settings& settings, const std::vector<LightBand>& bands);
+std::vector<Lamp> read_lamps(const Settings& settings, const std::vector<LightBand>& bands,
+                             std::vector<Diagnostic>* warnings);
 
 const std::string& lamps_help();
 

@@ -77,6 +77,7 @@ std::size_t LightPaths::set(const LitTriangles& triangles, std::size_t slots, co
     for (const Lamp& lamp : lamps) top_ = std::max(top_, lamp.place.y + 1e-3);
     const glm::dvec3 farthest = glm::max(glm::abs(box.lower), glm::abs(box.upper));
     near_ = 1e-5 * std::max({farthest.x, farthest.y, farthest.z, 1e-3});
+    soil_ = options_.ground - 2 * near_;  // light that the soil scatters meets what lies on it
     for (Sums* sums : {&absorbed_, &front_, &back_}) sums->resize(slots * bands());
     sun_.resize(slots);
     towards_.resize(3 * slots);
@@ -175,7 +176,7 @@ void LightPaths::follow(std::uint32_t number, std::uint32_t seed, Ends& ends) {
     };
     Path path = first_of(sample_of(0));
     add(ends.brought, path);
-    if (path.origin.y < options_.ground) return add(ends.soil, path);  // it met the soil before
+    if (path.origin.y < soil_) return add(ends.soil, path);  // it met the soil before
     for (std::uint32_t bounce = 1;; ++bounce) {
         const Met met = advance_with(path, [&](double to) { count_at_sensors(path, to); });
         if (met.kind == Met::Kind::sky) return add(ends.escaped, path);
@@ -183,6 +184,7 @@ void LightPaths::follow(std::uint32_t number, std::uint32_t seed, Ends& ends) {
         const bool goes_on =
             met.kind == Met::Kind::soil ? scatter_from_soil(path, sample, ends) : scatter(path, met.hit, sample, ends);
         if (!goes_on) return;
+        if (bounce == options_.depth) return add(ends.escaped, path);
         path.is_first = false;
     }
 }
@@ -191,8 +193,9 @@ void LightPaths::follow(std::uint32_t number, std::uint32_t seed, Ends& ends) {
 template <class Pass>
 LightPaths::Met LightPaths::advance_with(Path& path, const Pass& pass) const {
     for (int periods = 0; periods < most_periods; ++periods) {
-        const double down = path.direction.y < 0 ? (options_.ground - path.origin.y) / path.direction.y : far;
-        const double to_soil = down >= path.near ? down : far, side = to_side(path);
+        const bool goes_down = path.direction.y < 0;
+        const double to_soil = goes_down ? std::max(0.0, (soil_ - path.origin.y) / path.direction.y) : far;
+        const double side = to_side(path);
         const double limit = std::min(to_soil, side);
         const auto hit = scene_.first_hit(glm::vec3(path.origin), glm::vec3(path.direction),
                                           static_cast<float>(path.near), static_cast<float>(limit));
@@ -246,7 +249,7 @@ SideOptics LightPaths::optics_of(const LitTriangles::Owner& owner, bool on_back,
 }
 
 void LightPaths::note_meeting(const Path& path, const LitTriangles::Owner& owner, bool on_back) {
-    if (owner.kind == LitKind::solid) return;
+    if (owner.kind == LitKind::solid || (options_.only_scattered && path.is_first)) return;
     add(on_back && owner.kind == LitKind::leaf ? back_ : front_, owner.slot, path);
     if (!path.is_first) return;
     const auto add_units = [](std::uint64_t& sum, double weight) {
@@ -336,6 +339,7 @@ void LightPaths::add(OfBands& sums, const Path& path) const {
 
 void LightPaths::absorb(const LitTriangles::Owner& owner, const Path& path, Ends& ends) {
     if (owner.kind == LitKind::solid) return add(ends.solids, path);
+    if (options_.only_scattered && path.is_first) return add(ends.escaped, path);
     add(absorbed_, owner.slot, path);
 }
 

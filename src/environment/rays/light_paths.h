@@ -19,10 +19,12 @@ namespace espalier::environment {
 class LightPaths {
 public:
     struct Options {
-        double ground = 0;          ///< height of the soil
-        std::optional<Box> period;  ///< of a stand without an edge
-        double residual = 0.001;    ///< where less of a path's light is left, that is absorbed where it is
-        bool evenly = true;         ///< by Sobol's sequence, or by independent random numbers
+        double ground = 0;            ///< height of the soil
+        std::optional<Box> period;    ///< of a stand without an edge
+        double residual = 0.001;      ///< where less of a path's light is left, that is absorbed where it is
+        bool evenly = true;           ///< by Sobol's sequence, or by independent random numbers
+        std::uint32_t depth = 0;      ///< how often a path may meet something before it ends; 0: as often as it does
+        bool only_scattered = false;  ///< what a path brings to where it is first met is not counted
     };
 
     /// `optics` is kept by reference.
@@ -129,6 +131,7 @@ private:
     double light_ = 0;
     glm::dvec3 centre_{0, 0, 0};
     double radius_ = 0, near_ = 0, top_ = 0;
+    double soil_ = 0;  ///< a little below the ground, so that what is drawn at its height lies on the soil
     std::uint32_t paths_ = 1;
     Sums absorbed_, front_, back_, sun_, towards_, through_sensors_;
     Ends ends_;

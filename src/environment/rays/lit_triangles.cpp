@@ -43,6 +43,12 @@ void LitTriangles::add(const PlantGeometry& geometry, std::uint32_t first_slot, 
     }
 }
 
+void LitTriangles::add(std::span<const Corners> triangles, std::span<const Owner> owners) {
+    parts_.push_back({owners_.size(), {}});
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+        add(triangles[i][0], triangles[i][1], triangles[i][2], owners[i]);
+}
+
 void LitTriangles::add(const Shape& solid, double voxel) {
     parts_.push_back({owners_.size(), {}});
     const TriangleMesh mesh = surface_of(solid, voxel);

@@ -10,6 +10,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -30,6 +31,9 @@ public:
     /// Leaves, stems and bodies as `DrawnFaces` has them, a part of their own. `first_slot` is that of the plant's
     /// first module. Throws RunError for leaves without a material.
     void add(const PlantGeometry& geometry, std::uint32_t first_slot, std::uint32_t plant, const Optics& optics);
+    using Corners = std::array<glm::dvec3, 3>;
+    /// Triangles that a process makes itself, all of one owner each; a part of their own.
+    void add(std::span<const Corners> triangles, std::span<const Owner> owners);
     /// The surface of a solid with bounds, from voxels of that length; a part of its own.
     void add(const Shape& solid, double voxel);
 

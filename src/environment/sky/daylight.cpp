@@ -34,20 +34,21 @@ double light_of(const Settings& sky, const char* key) {
 
 }  // namespace
 
-DaylightSeries::DaylightSeries(const Settings& sky, double least_rise) : least_rise_(least_rise) {
+DaylightSeries::DaylightSeries(const Settings& sky, double lowest_rise, std::vector<Diagnostic>* warnings)
+    : least_rise_(lowest_rise) {
     read_sky(sky);
     north_ = unit_vector(sky, "north", {0, 0, -1});
     if (north_.y != 0) throw UserError(sky.place("north"), "'north' must be horizontal: [x, 0, z]");
     if (sky.has("diffuse")) diffuse_ = sky.number("diffuse", Range::between(0, 1));
-    const double photons = sky.number_or("photons", 4.57, Range::positive());
-    par_of_global_ = photons * sky.number_or("par_share", 0.5, Range{0, 1, true});
+    photons_.of_par = sky.number_or("photons", 4.57, Range::positive());
+    photons_.of_global = photons_.of_par * sky.number_or("par_share", 0.5, Range{0, 1, true});
     if (sky.has("par") || sky.has("global")) {
         read_steady(sky);
     } else if (sky.has("series")) {
-        read_path(sky);
+        read_path(sky, warnings);
         read_series(sky);
     } else {
-        read_path(sky);
+        read_path(sky, warnings);
         clearness_ = sky.has("clearness") ? light_of(sky, "clearness") : sky.number_or("clearness", 0.5);
         if (clearness_ > 1) throw UserError(sky.place("clearness"), "'clearness' must lie between 0 and 1");
         read_hours(sky);
@@ -65,7 +66,7 @@ void DaylightSeries::read_steady(const Settings& sky) {
     if (sky.has("par") && sky.has("global")) {
         throw UserError(sky.place("global"), "the light is given twice, as 'par' and as 'global': leave one out");
     }
-    steady_ = sky.has("par") ? light_of(sky, "par") : par_of_global_ * light_of(sky, "global");
+    steady_ = sky.has("par") ? light_of(sky, "par") : photons_.of_global * light_of(sky, "global");
     if (sky.has("suns")) return read_suns(sky);
     suns_ = {{unit_vector(sky, "sun", {0, 1, 0}), 1}};
     if (suns_[0].towards.y < least_rise_ && diffuse_.value_or(1) < 1) {
@@ -96,11 +97,11 @@ void DaylightSeries::read_suns(const Settings& sky) {
     }
 }
 
-void DaylightSeries::read_path(const Settings& sky) {
+void DaylightSeries::read_path(const Settings& sky, std::vector<Diagnostic>* warnings) {
     place_.latitude = sky.number_or("latitude", 50, Range::between(-90, 90));
     place_.longitude = sky.number_or("longitude", 0, Range::between(-180, 180));
     place_.zone = sky.number_or("zone", 0, Range::between(-14, 14));
-    if (sky.has("series")) series_.emplace(sky.path("series"), sky.number_or("photons", 4.57));
+    if (sky.has("series")) series_.emplace(sky.path("series"), photons_, warnings);
     const bool is_dated = series_ && series_->year() > 0;
     year_ = static_cast<double>(sky.integer_or("year", is_dated ? series_->year() : 2025, Range::between(1950, 2050)));
     day_ = sky.number_or("day", is_dated ? series_->day() : 172, Range::between(1, 366));
@@ -131,16 +132,15 @@ void DaylightSeries::read_series(const Settings& sky) {
     repeats_ = sky.flag_or("repeat", false);
     sample_ = sky.number_or("sample", 0.5, Range::between(0.01, 24));
     for (const MeasuredLight& row : series_->rows()) {
-        const double global = row.global >= 0 ? row.global : row.par / par_of_global_;
         const SunPosition sun =
             sun_position(place_, {year_, day_ + std::floor(row.hours / 24), std::fmod(row.hours, 24)});
         const double below = -sun.elevation * 180 / std::numbers::pi;
-        if (below < 3 || global < 50) continue;
+        if (below < 3 || row.global < 50) continue;
         throw UserError(
             {series_->path().string(), row.line, 0},
             fmt::format("{:.4g} W m-2 are measured while the sun stands {:.0f} degrees below the horizon: check "
                         "latitude, longitude and zone, and that times are civil time of the place",
-                        global, below));
+                        row.global, below));
     }
 }
 
@@ -190,7 +190,7 @@ void DaylightSeries::add_steady(double days, Sums& sums) const {
     int slot = 0;
     for (const auto& [towards, share] : suns_) {
         const double par = share * *steady_;
-        add({towards, seconds, par, par / par_of_global_, diffuse_.value_or(1), slot++}, sums);
+        add({towards, seconds, par, par / photons_.of_global, diffuse_.value_or(1), slot++}, sums);
     }
     sums.light.seconds = seconds;
 }
@@ -205,7 +205,8 @@ DaylightSeries::Moment DaylightSeries::at_hour(double day, const Hour& hour, int
     const SunPosition position = sun_position(place_, {year_, day, hour.at});
     const glm::dvec3 sun = towards_sun(position, north_);
     const double global = sun.y < least_rise_ ? 0 : clearness_ * extraterrestrial_flux(position) * sun.y;
-    return {sun, 3600 * hour.span, par_of_global_ * global, global, diffuse_.value_or(diffuse_share(clearness_)), slot};
+    return {sun, 3600 * hour.span, photons_.of_global * global, global, diffuse_.value_or(diffuse_share(clearness_)),
+            slot};
 }
 
 /// The hours of the scene, or so many between the sun's rise and set that twice as many change little.
@@ -287,17 +288,13 @@ DaylightSeries::Moment DaylightSeries::measured(double hours, double seconds) co
     const double hour = hours - 24 * std::floor(hours / 24);
     const SunPosition position = sun_position(place_, {year_, day_ + std::floor(hours / 24), hour});
     const glm::dvec3 sun = towards_sun(position, north_);
-    const double global = row.global >= 0 ? row.global : row.par / par_of_global_;
-    const double par = row.par >= 0 ? row.par : global * par_of_global_;
     double diffuse = diffuse_.value_or(1);
-    if (row.diffuse >= 0 && global > 0) {
-        diffuse = std::min(1.0, row.diffuse / global);
-    } else if (row.direct >= 0 && global > 0) {
-        diffuse = 1 - std::min(1.0, row.direct / global);
+    if (row.diffuse >= 0 && row.global > 0) {
+        diffuse = row.diffuse / row.global;
     } else if (!diffuse_ && sun.y >= least_rise_) {
-        diffuse = diffuse_share(std::clamp(global / (extraterrestrial_flux(position) * sun.y), 0.0, 1.0));
+        diffuse = diffuse_share(std::clamp(row.global / (extraterrestrial_flux(position) * sun.y), 0.0, 1.0));
     }
-    return {sun, seconds, par, global, diffuse, static_cast<int>(hour / sample_)};
+    return {sun, seconds, row.par, row.global, diffuse, static_cast<int>(hour / sample_)};
 }
 
 const std::string& sky_help() {
@@ -336,8 +333,10 @@ diffuse       after Erbs et al. 1982, from the clearness
 With series, the light is what was measured, and the sun goes its way:
 series        a CSV file. Its header names columns and units: "time (h)" since the midnight at which the run begins,
               or "date" as 2025-06-21 13:30 in civil time; "global (W m-2)", "par (umol m-2 s-1)" or both, on level
-              ground; "diffuse (W m-2)" or "direct (W m-2)" if measured, else after Erbs et al. 1982. Light changes
-              evenly from row to row, and each step gets the integral over its time
+              ground; "diffuse" or "direct" in one of these units, or "diffuse share (1)", if measured, else after Erbs
+              et al. 1982. Commas, semicolons or tabs separate its cells. Values from -20 to 0 are 0; cells that are
+              empty, NA, 9999 and the like were not measured, and other columns stand for them. Light changes evenly
+              from row to row, and each step gets the integral over its time
 sample        0.5 hours: how often the sun is looked at
 repeat        false; true begins the series anew where it ends
 )help";

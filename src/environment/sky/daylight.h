@@ -8,6 +8,7 @@
 #include "environment/sky/radiance.h"
 #include "environment/sky/sun.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -41,8 +42,8 @@ struct Daylight {
 /// Reads the table `sky` of a process (help in `sky_help`), and makes the light of any day.
 class DaylightSeries {
 public:
-    /// Beams that come from lower than `least_rise`, the sine of their elevation, are left out. Throws UserError.
-    DaylightSeries(const Settings& sky, double least_rise);
+    /// Beams that come from lower than `lowest_rise`, the sine of their elevation, are left out. Throws UserError.
+    DaylightSeries(const Settings& sky, double lowest_rise, std::vector<Diagnostic>* warnings = nullptr);
 
     /// The day on which the light begins, counted from 1 on 1 January.
     double first_day() const { return day_; }
@@ -50,6 +51,9 @@ public:
     /// Returns the light of `days` that begin `elapsed` days after the first; their middle day stands for all of them,
     /// but of a measured series, of which every row counts. Throws RunError beyond the series.
     Daylight over(double elapsed, double days) const;
+    /// The light between a step and the one before, `days` apart. Step 0 is the beginning, at which no time has passed:
+    /// it has the light of step 1, for what is asked per area or second.
+    Daylight of_step(int step, double days) const { return over(std::max(0, step - 1) * days, days); }
 
 private:
     /// A short time with one place of the sun.
@@ -80,7 +84,7 @@ private:
     void read_sky(const Settings& sky);
     void read_steady(const Settings& sky);
     void read_suns(const Settings& sky);
-    void read_path(const Settings& sky);
+    void read_path(const Settings& sky, std::vector<Diagnostic>* warnings);
     void read_hours(const Settings& sky);
     void read_series(const Settings& sky);
     SkyRadiance radiance(const glm::dvec3& sun) const;
@@ -105,7 +109,7 @@ private:
     glm::dvec3 north_{0, 0, -1};
     GroundPlace place_;
     double year_ = 2025, day_ = 172, clearness_ = 0.5;
-    double par_of_global_ = 0.5 * 4.57;  ///< umol of PAR per joule of all wavelengths
+    LightSeries::Photons photons_;
     bool adaptive_ = false;
     std::vector<Hour> hours_;  ///< of a day, and how many each stands for
 };

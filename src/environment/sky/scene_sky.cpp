@@ -51,7 +51,7 @@ SceneSky::SceneSky(std::shared_ptr<const DaylightSeries> light, Kind kind, doubl
     : light_(std::move(light)), kind_(kind), days_(days), dt_(dt) {}
 
 StepSky SceneSky::at_step(int step) const {
-    const Daylight light = light_->over(step * dt_ * days_, dt_ * days_);
+    const Daylight light = light_->of_step(step, dt_ * days_);
     StepSky sky;
     if (light.on_ground <= 0) return sky;
     double of_suns = 0, brightest = 0;

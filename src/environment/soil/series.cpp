@@ -54,6 +54,10 @@ SoilSeries SoilSeries::read(const Settings& settings, const std::string& key, do
         }
         series.times_.push_back(day);
         series.values_.push_back(number_in(*row, column, column_name, place, range));
+        if (!row->is_missing(column)) continue;
+        throw UserError(place,
+                        fmt::format("'{}' of '{}' stands for a value that was not measured: a series has no gaps",
+                                    row->cells[column], column_name));
     }
     if (series.times_.empty()) throw UserError({path.string(), 1, 0}, "this series has no lines");
     return series;

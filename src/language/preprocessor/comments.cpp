@@ -2,6 +2,7 @@
 
 #include "espalier/base/stop.h"
 
+#include "base/byte_order_mark.h"
 #include "base/characters.h"
 
 #include <fmt/format.h>
@@ -17,7 +18,7 @@ public:
         : text_(sources.text(file)), at_{file, 1, 1}, mistakes_(mistakes) {}
 
     MappedText run() {
-        if (text_.starts_with("\xEF\xBB\xBF")) position_ = 3;
+        position_ = byte_order_mark(text_);
         StopCheck<4096> check_stop;
         while (next_line_joined() || position_ < text_.size()) {
             check_stop();

@@ -133,6 +133,8 @@ Command command_of(const Lines& lines, std::vector<Diagnostic>& diagnostics) {
         const std::string& word = lines.command[i];
         if (word == "-e" || word == "-k" || word == "-ext") {
             ++i;  // cpfg's own, with a value
+        } else if (word == "-no_xserver") {
+            continue;  // QuasiMC's: without a window, as everything here
         } else if (!word.starts_with('-') && !command.parameters) {
             command.parameters = word;
         } else {
@@ -148,27 +150,32 @@ const std::map<std::string, const ProcessType*>& process_types() {
     return registered<ProcessType>();
 }
 
+// Programs of cpfg that are a process of Espalier under another name, which knows them by `program`.
+bool follows_rays(const std::string& program) {
+    return program == "QuasiMC" || program == "MonteCarlo" || program == "radiosity";
+}
+
+std::string process_of(const std::string& program) {
+    return follows_rays(program) ? "ray-light" : program;
+}
+
 std::vector<std::string> known_programs() {
-    std::vector<std::string> names{"multiple"};
+    std::vector<std::string> names{"multiple", "QuasiMC", "MonteCarlo", "radiosity"};
     for (const auto& entry : process_types()) names.push_back(entry.first);
     std::sort(names.begin(), names.end());
     return names;
 }
 
 bool is_process(const std::string& program) {
-    return program == "multiple" || process_types().contains(program);
+    return program == "multiple" || process_types().contains(process_of(program));
 }
 
 // What answers instead of a program of cpfg that is missing; "" if nothing does.
 std::string near_in_purpose(const std::string& program) {
-    static const std::map<std::string, std::string> near{
-        {"QuasiMC", "ray-light"}, {"MonteCarlo", "ray-light"}, {"radiosity", "ray-light"}, {"soil", "soil-water"}};
-    const auto at = near.find(program);
-    if (at == near.end()) return "";
-    return fmt::format(
-        ". Near to cpfg's {} in purpose is '{}', but its parameters and answers are its own: a TOML file, as "
-        "`executable: {} FILE.toml`",
-        program, at->second, at->second);
+    if (program != "soil") return "";
+    return ". Near to cpfg's soil in purpose is 'soil-water', but its parameters and answers are its own: a TOML file, "
+           "as "
+           "`executable: soil-water FILE.toml`";
 }
 
 // `./mine`, which is no process of Espalier.
@@ -179,7 +186,8 @@ bool is_own_program(const Lines& lines) {
 // What the file says beside the parameters: keys of [environment.<name>] and their values as TOML.
 std::vector<std::pair<std::string, std::string>> communication_of(const Lines& lines, const std::string& program) {
     std::vector<std::pair<std::string, std::string>> entries;
-    if (process_types().at(program)->has_numbers_of_cpfg) entries.emplace_back("numbers", toml_text("cpfg"));
+    if (process_types().at(process_of(program))->has_numbers_of_cpfg)
+        entries.emplace_back("numbers", toml_text("cpfg"));
     if (!lines.following_module) entries.emplace_back("following_module", "false");
     if (!lines.binary) entries.emplace_back("digits", "6");
     std::map<std::string, std::string> turtle;
@@ -207,7 +215,8 @@ Settings table_of(const Lines& lines, const Command& command, const fs::path& pa
         }
         return table;
     }
-    std::string entries = "process = " + toml_text(command.program);
+    std::string entries = "process = " + toml_text(process_of(command.program));
+    if (follows_rays(command.program)) entries += ", program = " + toml_text(command.program);
     if (!parameters.empty()) entries += ", parameters = " + toml_text(parameters.string());
     for (const auto& [key, value] : communication) entries += fmt::format(", {} = {}", key, value);
     return table_of(entries, lines, path);
@@ -293,7 +302,14 @@ private:
                     near_in_purpose(command.program), command.program),
                 fmt::format("executable: {}", fmt::join(lines.command, " ")));
         }
-        result_.processes.emplace_back(name, table_of(lines, command, named(command, lines, path), path));
+        const fs::path parameters = named(command, lines, path);
+        if (follows_rays(command.program) && (parameters.empty() || parameters.extension() == ".toml")) {
+            throw UserError(lines.command_place,
+                            fmt::format("{} needs its file of parameters, as in `executable: {} FILE.spec`; a table of "
+                                        "TOML is for `executable: ray-light FILE.toml`",
+                                        command.program, command.program));
+        }
+        result_.processes.emplace_back(name, table_of(lines, command, parameters, path));
     }
 
     // Relative to the folder of the file that names it, or to that of the object.

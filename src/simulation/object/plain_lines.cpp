@@ -1,10 +1,12 @@
 #include "simulation/object/plain_lines.h"
 
+#include "base/byte_order_mark.h"
+
 namespace espalier::simulation {
 
 std::vector<PlainLine> plain_lines(std::string_view text, const std::string& name) {
     std::vector<PlainLine> lines;
-    for (std::size_t begin = 0; begin < text.size();) {
+    for (std::size_t begin = byte_order_mark(text); begin < text.size();) {
         const std::size_t end = std::min(text.find('\n', begin), text.size());
         std::string_view line = text.substr(begin, end - begin);
         if (line.ends_with('\r')) line.remove_suffix(1);

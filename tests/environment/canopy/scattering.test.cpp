@@ -39,7 +39,7 @@ TEST_CASE("leaves of five distributions let exp(-G LAI / cos zenith) through fro
         for (const double zenith : {0.0, 0.35, 0.7, 1.05, 1.3}) {
             Environment light = light_process(
                 "canopy-light", by_queries + black + sun_at(zenith) + "leaf_angles = \"" + std::string(name) + "\"\n");
-            even_leaves(3).exchange(light);
+            even_leaves(3).exchange(light, 1);
             const double exact = std::exp(-plain_projection(name, zenith) * 3 / std::cos(zenith));
             CHECK(statistic(light, "passed") == Approx(exact).epsilon(0.005));
             CHECK(std::abs(statistic(light, "closure")) < 1e-6);
@@ -52,7 +52,7 @@ TEST_CASE("of the light of a sky, leaves let the integral over the hemisphere th
         Environment light =
             light_process("canopy-light", by_queries + black + "sky = { par = 1000, rings = 12, radiance = \"" +
                                               std::string(radiance) + "\" }\n");
-        even_leaves(2).exchange(light);
+        even_leaves(2).exchange(light, 1);
         double through = 0, all = 0;
         for (int i = 0; i < 20000; ++i) {
             const double zenith = pi / 2 * (i + 0.5) / 20000;
@@ -70,7 +70,7 @@ TEST_CASE("horizontal leaves divide light as the two-stream equations say exactl
         Environment light =
             light_process("canopy-light", by_queries + band(r, t, s) + sun_at(0.4) +
                                               "leaf_angles = \"horizontal\"\nscattering.residual = 1e-4\n");
-        even_leaves(area_index).exchange(light);
+        even_leaves(area_index).exchange(light, 1);
         const TwoStreams exact(area_index, r, t, s);
         CHECK(statistic(light, "soil") == Approx((1 - s) * exact.down).margin(0.004));
         CHECK(statistic(light, "escaped") == Approx(exact.up).margin(0.004));
@@ -86,7 +86,7 @@ TEST_CASE("the error of scattered light falls with the square of the leaf area i
             Environment light = light_process(
                 "canopy-light", "voxel = " + voxel + "\nperiodic = true\narea = \"queries\"\n" + band(r, t, s) +
                                     sun_at(0.7) + "leaf_angles = \"horizontal\"\nscattering.residual = 1e-4\n");
-            even_leaves(area_index).exchange(light);
+            even_leaves(area_index).exchange(light, 1);
             return std::abs(statistic(light, "escaped") - exact.up);
         };
         const double coarse = error("0.5"), fine = error("0.25");  // 6 and 12 layers
@@ -113,7 +113,7 @@ TEST_CASE("leaves at random come as near to the two-stream equations, if a voxel
             draw_square(plants.interpretation(0).geometry, 1, {2 * x, 0.02 + 2.9 * y, 2 * z}, {1, 0, 0}, {0, 0, -1},
                         std::sqrt(4 * area_index / leaves));
         }
-        plants.exchange(light);
+        plants.exchange(light, 1);
         CAPTURE(voxel);
         CHECK(statistic(light, "soil") == Approx((1 - s) * exact.down).margin(error));
         CHECK(statistic(light, "escaped") == Approx(exact.up).margin(error));
@@ -137,7 +137,7 @@ TEST_CASE("drawn leaves, stems, soil and solids keep all light in every band", "
         stem.tip = {1.5, 2.5, 1.5};
         stem.base_radius = stem.tip_radius = 0.03;
         geometry.internodes.push_back(stem);
-        plants.exchange(light);
+        plants.exchange(light, 1);
         for (const char* name : {"closure", "closure.nir"}) CHECK(std::abs(statistic(light, name)) < 1e-6);
         CHECK(statistic(light, "solids") > 0.005);
         CHECK(statistic(light, "absorbed.nir") < 0.7 * statistic(light, "absorbed") * 2);
@@ -154,8 +154,8 @@ TEST_CASE("in slabs of random leaves both processes agree within 2 % in PAR and 
         AskingPlants plants;
         plants.add({{{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}});
         draw_at_random(plants.interpretation(0).geometry, 1, 12000, 0.031, 8, inclination);  // LAI 2.9
-        plants.exchange(voxels);
-        plants.exchange(rays);
+        plants.exchange(voxels, 1);
+        plants.exchange(rays, 1);
         CAPTURE(inclination);
         for (const char* name : {"absorbed", "absorbed.nir"}) {
             CHECK(statistic(voxels, name) == Approx(statistic(rays, name)).epsilon(0.02));
@@ -184,7 +184,7 @@ TEST_CASE("turned about the vertical, moved by a voxel or divided among plants, 
                 vertex += shift;
             }
         }
-        plants.exchange(light);
+        plants.exchange(light, 1);
         return statistic(light, "absorbed", 0) + statistic(light, "absorbed", 1);
     };
     const double as_drawn = absorbed({0, 0, 0}, false, false);
@@ -195,6 +195,6 @@ TEST_CASE("turned about the vertical, moved by a voxel or divided among plants, 
 
 TEST_CASE("clumped leaves let exp(-clumping G LAI) through", "[canopy-light]") {
     Environment light = light_process("canopy-light", by_queries + black + sun_at(0) + "clumping = 0.6\n");
-    even_leaves(4).exchange(light);
+    even_leaves(4).exchange(light, 1);
     CHECK(statistic(light, "passed") == Approx(std::exp(-0.6 * 0.5 * 4)).epsilon(1e-4));
 }

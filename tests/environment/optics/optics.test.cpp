@@ -49,7 +49,7 @@ TEST_CASE("a leaf without a material ends the run in one line", "[optics]") {
         AskingPlants plants;
         plants.add({{{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}});
         draw_square(plants.interpretation(0).geometry, 1, {1, 1, 1}, {1, 0, 0}, {0, 0, 1}, 0.1, 3);
-        plants.exchange(light);
+        plants.exchange(light, 1);
         draw_square(plants.interpretation(0).geometry, 1, {1, 1, 1}, {1, 0, 0}, {0, 0, 1}, 0.1, 5);
         const std::string message = message_of([&] { plants.exchange(light, 1); });
         CHECK(lacks(message, {"colour 5", "no material names", "colours"}) == "");
@@ -69,7 +69,7 @@ TEST_CASE("the two sides of a leaf take different shares of the light that falls
             plants.add({{{0, 0, 0}, {0, 0}}, {{0, 0, 0}, {0}}});
             const glm::dvec3 z(0, 0, upside_down ? 1 : -1);  // x cross -z is y
             draw_square(plants.interpretation(0).geometry, 1, {1, 1, 1}, {1, 0, 0}, z, 0.05);
-            plants.exchange(light);
+            plants.exchange(light, 1);
             CHECK(plants.parameters()[0] == Approx(upside_down ? 0.4 : 0.7).epsilon(0.02));
         }
     }

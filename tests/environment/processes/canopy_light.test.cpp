@@ -30,7 +30,7 @@ TEST_CASE("a level leaf under the open sky absorbs what falls on it", "[canopy-l
         AskingPlants plants;
         plants.add({{{0.2, height, 0.1}, {0, 0, 0}}, {{0, 0, 0}, {0}}});
         draw_square(plants.interpretation(0).geometry, 1, {0.2, height, 0.1}, {1, 0, 0}, {0, 0, 1}, 0.02);
-        plants.exchange(environment);
+        plants.exchange(environment, 1);
         const std::vector<double> answer = plants.parameters();
         const double self_shaded = (1 - std::exp(-0.0016)) / 0.0016;  // 0.0004 m2 in 0.25 m2
         CHECK(answer[0] == Approx(self_shaded).epsilon(1e-6));
@@ -58,7 +58,7 @@ TEST_CASE("random leaves of a periodic canopy absorb 1 - exp(-G LAI / cos zenith
                                         2 * samples.uniform());
                 draw_square(plants.interpretation(0).geometry, 1, middle, along, glm::cross(normal, along), side);
             }
-            plants.exchange(environment);
+            plants.exchange(environment, 1);
             const double exact = std::exp(-0.5 * 3 / std::cos(zenith));
             // Voxels of random density let through more than their mean does, by half of the variance.
             CHECK(statistic(environment, "passed") == Approx(exact).epsilon(0.02));
@@ -81,7 +81,7 @@ TEST_CASE("queries that bring their leaf area share the light of a layer of that
         }
     }
     AskingPlants plants;
-    plants.add(asked).exchange(environment);
+    plants.add(asked).exchange(environment, 1);
     const std::vector<double> answer = plants.parameters();
     for (std::size_t i = 0; i < asked.size(); ++i) {
         const double above = std::exp(-0.8 * (2.5 - asked[i].position.y));
@@ -98,8 +98,8 @@ TEST_CASE("leaves of several plants absorb the same as leaves of one, in any ord
     const std::string lines = "area = \"queries\"\nsky = { latitude = 40, day = 150 }\n";
     Environment one = canopy_light(lines), two = canopy_light(lines);
     AskingPlants alone, apart;
-    alone.add({first[0], first[1], second[0]}).exchange(one);
-    apart.add(second).add(first).exchange(two);
+    alone.add({first[0], first[1], second[0]}).exchange(one, 1);
+    apart.add(second).add(first).exchange(two, 1);
     CHECK(alone.parameters()[1] == Approx(apart.parameters(1)[1]).epsilon(1e-12));
     CHECK(alone.parameters()[3] == Approx(apart.parameters(1)[3]).epsilon(1e-12));
     CHECK(alone.parameters()[5] == Approx(apart.parameters(0)[1]).epsilon(1e-12));
@@ -109,7 +109,7 @@ TEST_CASE("a day of half clearness at 50 degrees brings what the sun's path and 
           "[canopy-light]") {
     Environment environment = canopy_light("sky = { latitude = 50, day = 172, year = 2025 }\n");
     AskingPlants plants;
-    plants.add({{{0, 1, 0}, {0}}}).exchange(environment);
+    plants.add({{{0, 1, 0}, {0}}}).exchange(environment, 1);
     // The daily light above the air in closed form (Spencer 1971; Iqbal 1983, equation 4.2.22), declination 23.44.
     const double phi = 50 * pi / 180, declination = 23.44 * pi / 180;
     const double sunset = std::acos(-std::tan(phi) * std::tan(declination));
@@ -133,13 +133,13 @@ TEST_CASE("light that cannot be is refused in words", "[canopy-light]") {
     Environment environment = canopy_light("area = \"queries\"\n");
     AskingPlants plants;
     plants.add({{{0, 0, 0}, {-1, 0}}});
-    CHECK(lacks(message_of([&] { plants.exchange(environment); }), {"must be a number from 0 on"}) == "");
+    CHECK(lacks(message_of([&] { plants.exchange(environment, 1); }), {"must be a number from 0 on"}) == "");
 }
 
 TEST_CASE("a night brings no light, and asks for none", "[canopy-light]") {
     Environment environment = canopy_light("sky = { latitude = 80, day = 355 }\n");
     AskingPlants plants;
-    plants.add({{{0, 1, 0}, {7, 7, 7}}}).exchange(environment);
+    plants.add({{{0, 1, 0}, {7, 7, 7}}}).exchange(environment, 1);
     CHECK(plants.parameters() == std::vector<double>{0, 0, 0});
     CHECK(statistic(environment, "incoming") == 0);
 }
@@ -156,7 +156,7 @@ TEST_CASE("larger voxels smooth a clump of leaves away, and absorb more", "[cano
                                     0.8 + 0.4 * samples.uniform());
             draw_square(plants.interpretation(0).geometry, 1, middle, {1, 0, 0}, {0, 0, 1}, 0.02);
         }
-        plants.exchange(environment);
+        plants.exchange(environment, 1);
         CHECK(statistic(environment, "absorbed") > before);
         before = statistic(environment, "absorbed");
     }

@@ -43,7 +43,7 @@ TEST_CASE("a level black leaf under the open sky absorbs what falls on it", "[ra
         AskingPlants plants;
         plants.add({{{0.2, height, 0.1}, {0, 0, 0}}, {{0, 0, 0}, {0}}});
         draw_square(plants.interpretation(0).geometry, 1, {0.2, height, 0.1}, {1, 0, 0}, {0, 0, 1}, 0.02);
-        plants.exchange(environment);
+        plants.exchange(environment, 1);
         const std::vector<double> answer = plants.parameters();
         const double error = 4 * statistic(environment, "absorbed_error") + 1e-9;
         CHECK(answer[1] == Approx(0.0004 * 1e-3 * 86400).margin(error));
@@ -60,7 +60,7 @@ TEST_CASE("over a soil that reflects a share of the light, a small leaf gets tha
         AskingPlants plants;
         plants.add({{{1, 1, 1}, {0}}, {{0, 0, 0}, {0}}});
         draw_square(plants.interpretation(0).geometry, 1, {1, 1, 1}, {1, 0, 0}, {0, 0, 1}, 0.05);
-        plants.exchange(environment);
+        plants.exchange(environment, 1);
         // The soil around it is lit but for its own shadow, a 1600th of the period.
         CHECK(plants.parameters()[0] == Approx(1 + soil).epsilon(0.04));
     }
@@ -76,7 +76,7 @@ TEST_CASE("one and two layers of level leaves divide the light as the exact seri
         for (int layer = 0; layer < layers; ++layer) {
             draw_square(plants.interpretation(0).geometry, 1, {1, 1 + 0.5 * layer, 1}, {1, 0, 0}, {0, 0, 1}, 2);
         }
-        plants.exchange(environment);
+        plants.exchange(environment, 1);
         const double passed = layers == 1 ? through : through * through / (1 - back * back);
         const double escaped = layers == 1 ? back : back + through * through * back / (1 - back * back);
         CHECK(statistic(environment, "soil") == Approx(passed).margin(0.003));
@@ -93,7 +93,7 @@ TEST_CASE("an upright plate at the edge of a lit one gets what the view factor o
     PlantGeometry& geometry = plants.interpretation(0).geometry;
     draw_square(geometry, 1, {0.5, 0.5, 0.5}, {1, 0, 0}, {0, 0, 1}, 1);
     draw_square(geometry, 3, {0, 1, 0.5}, {0, 1, 0}, {0, 0, 1}, 1);
-    plants.exchange(environment);
+    plants.exchange(environment, 1);
     const double factor = 0.20004;  // two unit squares that share an edge (Howell, Siegel & Menguc 2010, C-14)
     // What goes to and fro once more is a ten-thousandth of it.
     CHECK(plants.parameters()[4] == Approx(0.95 * 0.05 * factor * 86.4).epsilon(0.005));
@@ -111,7 +111,7 @@ TEST_CASE("random black leaves of a periodic stand let exp(-G LAI / cos zenith) 
         AskingPlants plants;
         plants.add({{{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}});
         scatter_squares(plants.interpretation(0).geometry, 1, count, side, 77 + std::uint64_t(10 * zenith));
-        plants.exchange(environment);
+        plants.exchange(environment, 1);
         CHECK(statistic(environment, "leaf_area") == Approx(4 * area_index).epsilon(1e-6));
         // The gaps of one stand are a sample of its leaves' places: a standard error of half a percent.
         const double exact = std::exp(-0.5 * area_index / std::cos(zenith));
@@ -124,7 +124,7 @@ TEST_CASE("scattered light is neither lost nor made, in any band", "[ray-light]"
     AskingPlants plants;
     plants.add({{{1, 1, 1}, {0, 0, 0, 0, 0}}, {{0, 0, 0}, {0}}});
     scatter_squares(plants.interpretation(0).geometry, 1, 3000, 0.06, 3);
-    plants.exchange(environment);
+    plants.exchange(environment, 1);
     CHECK(std::abs(statistic(environment, "closure")) < 1e-6);
     const double par = statistic(environment, "absorbed"), nir = statistic(environment, "absorbed.nir");
     CHECK(plants.parameters()[1] == Approx(par));
@@ -145,7 +145,7 @@ TEST_CASE("black leaves absorb per organ what a ray tracer without tree or scatt
     plants.add(asked);
     PlantGeometry& geometry = plants.interpretation(0).geometry;
     for (std::uint32_t i = 0; i < leaves; ++i) scatter_squares(geometry, 2 * i + 1, 1, 0.7, 900 + i);
-    plants.exchange(environment);
+    plants.exchange(environment, 1);
 
     // Rays from a fine grid on each leaf towards the light, against all squares.
     const auto is_met = [&](const glm::dvec3& from, std::uint32_t own) {
@@ -184,8 +184,8 @@ TEST_CASE("canopy-light and ray-light agree on random black leaves", "[ray-light
     AskingPlants plants;
     plants.add({{{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}});
     scatter_squares(plants.interpretation(0).geometry, 1, 20000, 0.02, 8);
-    plants.exchange(rays);
-    plants.exchange(voxels);
+    plants.exchange(rays, 1);
+    plants.exchange(voxels, 1);
     CHECK(statistic(rays, "absorbed") == Approx(statistic(voxels, "absorbed")).epsilon(0.02));
     CHECK(statistic(rays, "incoming") == statistic(voxels, "incoming"));
 }
@@ -199,7 +199,7 @@ TEST_CASE("one thread and two, plants in any order, and a plant moved by a perio
         scatter_squares(plants.interpretation(first).geometry, 1, 300, 0.1, 4);
         scatter_squares(plants.interpretation(1 - first).geometry, 1, 300, 0.1, 5);
         for (glm::dvec3& vertex : plants.interpretation(first).geometry.vertices) vertex.x += shift;
-        plants.exchange(environment);
+        plants.exchange(environment, 1);
         return std::array{statistic(environment, "absorbed", first), statistic(environment, "absorbed", 1 - first)};
     };
     const auto one = absorbed(1, 0, 0);
@@ -221,7 +221,7 @@ TEST_CASE("the standard error is that of repeated runs, and falls at least as th
     };
     double sum = 0, squares = 0, errors = 0, errors_of_more = 0;
     constexpr int count = 24;
-    for (int step = 0; step < count; ++step) {
+    for (int step = 1; step <= count; ++step) {
         const auto [absorbed, error] = trial("paths = 1024\n", step);
         sum += absorbed;
         squares += absorbed * absorbed;
@@ -233,6 +233,151 @@ TEST_CASE("the standard error is that of repeated runs, and falls at least as th
     CHECK(errors_of_more < errors / 8 * 1.1);
     const auto [absorbed, error] = trial("paths = 64\naccuracy = 0.005\n", 3);
     CHECK(error <= 0.005 * absorbed);
+}
+
+TEST_CASE("a leaf that lies on the soil gets the light of one a millimetre above it", "[ray-light]") {
+    for (const double zenith : {0.0, 0.6, 1.2}) {
+        std::vector<double> direct, scattered;
+        for (const double height : {0.0, 0.001, -1e-6}) {
+            for (const char* leaf : {"[0, 0]", "[0.3, 0.4]"}) {
+                Environment environment = ray_light(
+                    "periodic = true\npaths = 262144\nresidual = 1e-5\nbands.par = { leaf = " + std::string(leaf) +
+                    ", soil = 0.2 }\n" + sun_at(zenith));
+                AskingPlants plants;
+                plants.add({{{1, height, 1}, {0}}, {{0, 0, 0}, {0}}});
+                draw_square(plants.interpretation(0).geometry, 1, {1, height, 1}, {1, 0, 0}, {0, 0, -1}, 1);
+                plants.exchange(environment, 1);
+                CHECK(std::abs(statistic(environment, "closure")) < 1e-6);
+                CHECK(statistic(environment, "escaped") < 1);
+                (leaf[1] == '0' && leaf[2] == ',' ? direct : scattered).push_back(plants.parameters()[0]);
+            }
+        }
+        CAPTURE(zenith);
+        CHECK(direct[0] == Approx(1).epsilon(0.01));
+        CHECK(direct[0] == Approx(direct[1]).epsilon(0.005));
+        CHECK(direct[2] == Approx(direct[1]).epsilon(0.005));
+        // What passes the leaf and the soil below it reflects: 0.3 (1 + 0.4 0.2 + ...) of the light.
+        CHECK(scattered[0] == Approx(0.3 * (1 + 0.4 * 0.2 / (1 - 0.3 * 0.2))).epsilon(0.01));
+        CHECK(scattered[0] == Approx(scattered[1]).epsilon(0.01));
+        CHECK(scattered[2] == Approx(scattered[1]).epsilon(0.01));
+    }
+}
+
+TEST_CASE("what no path has met has no known error, and an accuracy asks for paths until it is met", "[ray-light]") {
+    std::vector<Diagnostic> warnings;
+    const auto lit = [&](const std::string& lines, double side) {
+        EnvironmentContext context;
+        context.domain = Box{{0, 0, 0}, {200, 3, 200}};
+        context.plants = 2;
+        context.warnings = &warnings;
+        warnings.clear();
+        Environment environment =
+            environment_of("[light]\nprocess = \"ray-light\"\nperiodic = true\n" + lines + black + sun_above, context);
+        AskingPlants plants;
+        for (const double x : {50.0, 120.0}) {
+            plants.add({{{x, 1, x}, {0, 0}}, {{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}});
+            draw_square(plants.interpretation(x > 100).geometry, 1, {x, 1, x}, {1, 0, 0}, {0, 0, -1},
+                        x > 100 ? side : 100);
+        }
+        plants.exchange(environment, 1);
+        return std::tuple(statistic(environment, "absorbed", 1), statistic(environment, "absorbed_error", 1),
+                          environment.organ_values("light.error", 1)->at(1),
+                          environment.organ_values("light.error", 0)->at(1));
+    };
+    const auto [absorbed, error, of_organ, of_large] = lit("paths = 1024\n", 0.01);
+    CHECK(absorbed == 0);
+    CHECK(std::isnan(error));
+    CHECK(std::isnan(of_organ));
+    CHECK_FALSE(std::isnan(of_large));
+    REQUIRE(warnings.size() == 1);
+    CHECK(lacks(warnings[0].message, {"step 1", "no path", "met 1 of the organs", "unknown", "'paths'"}) == "");
+
+    const auto [reached, small_error, organ_error, other] = lit("paths = 1024\naccuracy = 0.05\n", 2);
+    CHECK(reached == Approx(4 * 86.4).epsilon(0.2));
+    CHECK(small_error <= 0.05 * reached);
+    CHECK(organ_error == Approx(small_error));
+    CHECK_FALSE(std::isnan(other));
+    CHECK(warnings.empty());
+}
+
+TEST_CASE("a plant in the dark does not ask for ever more paths", "[ray-light]") {
+    Environment environment = ray_light("periodic = true\npaths = 1024\naccuracy = 0.05\n" + black + sun_above);
+    AskingPlants plants;
+    for (const double height : {1.0, -0.5}) {
+        plants.add({{{1, height, 1}, {0, 0}}, {{0, 0, 0}, {0}}});
+        draw_square(plants.interpretation(height < 0).geometry, 1, {1, height, 1}, {1, 0, 0}, {0, 0, -1}, 0.5);
+    }
+    plants.exchange(environment, 1);
+    CHECK(statistic(environment, "absorbed", 0) == Approx(0.25 * 86.4).epsilon(0.2));
+    CHECK(statistic(environment, "absorbed", 1) == 0);
+    CHECK(std::isnan(statistic(environment, "absorbed_error", 1)));
+}
+
+TEST_CASE("light of several bands is kept to rounding where materials are in proportion, else in the mean",
+          "[ray-light]") {
+    const auto closures = [](const std::string& bands, int paths) {
+        double squares = 0;
+        for (int step = 1; step <= 8; ++step) {
+            Environment environment =
+                ray_light("periodic = true\npaths = " + std::to_string(paths) + "\n" + bands + sun_above);
+            AskingPlants plants;
+            plants.add({{{1, 1, 1}, {0}}, {{0, 0, 0}, {0}}});
+            scatter_squares(plants.interpretation(0).geometry, 1, 2000, 0.08, 3);
+            plants.exchange(environment, step);
+            squares += std::pow(statistic(environment, "closure.nir"), 2) / 8;
+        }
+        return std::sqrt(squares);
+    };
+    CHECK(closures("bands.par = { leaf = [0.1, 0.05] }\nbands.nir = { leaf = [0.5, 0.25] }\n", 4096) < 1e-6);
+    const std::string uneven = "bands.par = { leaf = [0.1, 0.02] }\nbands.nir = { leaf = [0.4, 0.4] }\n";
+    const double of_few = closures(uneven, 1024), of_many = closures(uneven, 65536);
+    CHECK(of_few > 1e-5);
+    CHECK(of_few < 0.05);
+    CHECK(of_many < of_few / 4);  // as the root of the paths at least: an eighth
+}
+
+TEST_CASE("step 0 answers shares and rates, and spends no light", "[ray-light]") {
+    for (const char* process : {"ray-light", "canopy-light"}) {
+        Environment environment = ray_light(black + "sky = { par = 1000, diffuse = 1 }\n", process);
+        double share = 0, rate = 0;
+        for (int step = 0; step < 3; ++step) {
+            AskingPlants plants;
+            plants.add({{{1, 1, 1}, {0, 9, 0}}, {{0, 0, 0}, {0}}});
+            draw_square(plants.interpretation(0).geometry, 1, {1, 1, 1}, {1, 0, 0}, {0, 0, -1}, 0.5);
+            plants.exchange(environment, step);
+            const std::vector<double> answer = plants.parameters();
+            if (step == 0) share = answer[0], rate = answer[2];
+            CHECK(share > 0.7);
+            CHECK(answer[0] == Approx(share).epsilon(0.05));
+            CHECK(answer[2] == Approx(rate).epsilon(0.05));
+            CHECK((answer[1] > 0) == (step > 0));
+            CHECK((statistic(environment, "absorbed") > 0) == (step > 0));
+            CHECK(statistic(environment, "incoming") == Approx(step > 0 ? 86.4 : 0));
+            CHECK((environment.organ_values("light.absorbed", 0)->at(1) > 0) == (step > 0));
+            CHECK(environment.organ_values("light.flux", 0)->at(1) > 700);
+        }
+    }
+}
+
+TEST_CASE("in a dark step f is 0, or by choice what it was; e and m are 0", "[ray-light]") {
+    for (const char* process : {"ray-light", "canopy-light"}) {
+        for (const auto& [dark, kept] : {std::pair{"zero", 0.0}, {"keep", 0.7}}) {
+            Environment environment = ray_light("dark = \"" + std::string(dark) +
+                                                    "\"\nsky = { latitude = 80, day = 355 }\n"
+                                                    "bands.par = {}\nbands.nir = {}\n",
+                                                process);
+            AskingPlants plants;
+            plants.add({{{1, 1, 1}, {0.7, 0.7, 0.7, 0.7, 0.7, 0.7}}, {{0, 0, 0}, {0}}});
+            draw_square(plants.interpretation(0).geometry, 1, {1, 1, 1}, {1, 0, 0}, {0, 0, -1}, 0.5);
+            plants.exchange(environment, 1);
+            const std::vector<double> answer = plants.parameters();
+            for (const std::size_t band : {0, 3}) {
+                CHECK(answer[band] == kept);
+                CHECK(answer[band + 1] == 0);
+                CHECK(answer[band + 2] == 0);
+            }
+        }
+    }
 }
 
 TEST_CASE("optical numbers that cannot be are refused in words", "[ray-light]") {

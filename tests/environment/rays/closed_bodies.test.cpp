@@ -71,7 +71,7 @@ TEST_CASE("a black sphere and a black cylinder absorb what their outlines take f
                 Environment light = light_process(process, black + lines + sun_at(zenith));
                 AskingPlants plants = asking_for(1);
                 draw_sphere(plants.interpretation(0).geometry, 1, {0.7, 1, 0.9}, 0.2);
-                plants.exchange(light);
+                plants.exchange(light, 1);
                 const double outline = std::numbers::pi * 0.01;
                 CHECK(absorbed(plants, 0) == Approx(outline * from_above).epsilon(error));
                 CHECK(plants.parameters()[0] == Approx(0.5 * from_above).epsilon(error));  // per half the surface
@@ -79,7 +79,7 @@ TEST_CASE("a black sphere and a black cylinder absorb what their outlines take f
             Environment light = light_process(process, black + lines + sun_at(zenith));
             AskingPlants plants = asking_for(1);
             draw_cylinder(plants.interpretation(0).geometry, 1, {0.7, 1, 0.9}, {0.7, 1.8, 0.9}, 0.1);
-            plants.exchange(light);
+            plants.exchange(light, 1);
             const double outline =
                 0.8 * 0.1 * std::sin(zenith) + std::numbers::pi * 0.0025 * std::cos(zenith);  // mantle and one end
             CHECK(absorbed(plants, 0) == Approx(outline * from_above).epsilon(error));
@@ -103,7 +103,7 @@ TEST_CASE("spheres shade leaves and each other as rays against balls count", "[r
     const glm::dvec3 leaf(0.2, 0.5, 0.5);
     draw_square(geometry, 2 * count + 1, leaf, {1, 0, 0}, {0, 0, 1}, 1);
     Environment light = light_process("ray-light", black + "paths = 524288\nground = -3\n" + sun_at(zenith));
-    plants.exchange(light);
+    plants.exchange(light, 1);
 
     const auto is_met = [&](const glm::dvec3& from, int own) {
         for (int k = 0; k < count; ++k) {
@@ -148,7 +148,7 @@ TEST_CASE("random spheres of a periodic stand let exp(-outlines per ground / cos
             draw_sphere(plants.interpretation(0).geometry, 1, middle, diameter);
             plants.interpretation(0).geometry.organs.back().sides = 6;
         }
-        plants.exchange(light);
+        plants.exchange(light, 1);
         const double outlines = count * std::numbers::pi * diameter * diameter / 4 / 4;
         // The gaps of one stand are a sample of its spheres' places: a standard error of 0.0033.
         CHECK(statistic(light, "soil") == Approx(std::exp(-outlines / std::cos(0.6))).margin(0.01));
@@ -164,7 +164,7 @@ TEST_CASE("a grey sphere sends back its share of the light and lets nothing thro
             light_process(process, "bands.par = { stem = 0.4, soil = 0 }\n" + std::string(lines) + sun_at(0.4));
         AskingPlants plants = asking_for(1);
         draw_sphere(plants.interpretation(0).geometry, 1, {0.7, 1, 0.9}, 0.2);
-        plants.exchange(light);
+        plants.exchange(light, 1);
         const double met = std::numbers::pi * 0.01 / std::cos(0.4);
         CHECK(absorbed(plants, 0) == Approx(0.6 * met).epsilon(error));
     }

@@ -59,7 +59,7 @@ TEST_CASE("horizontal leaves divide light as the two-stream equations say", "[ra
             const glm::dvec3 place(2 * samples.uniform(), 0.02 + 2.9 * samples.uniform(), 2 * samples.uniform());
             draw_square(geometry, 1, place, {1, 0, 0}, {0, 0, -1}, 0.03);
         }
-        plants.exchange(light);
+        plants.exchange(light, 1);
         const TwoStreams exact(leaves * 0.0009 / 4, r, t, s);
         CHECK(statistic(light, "soil") == Approx((1 - s) * exact.down).margin(0.006));
         CHECK(statistic(light, "escaped") == Approx(exact.up).margin(0.006));
@@ -79,7 +79,7 @@ TEST_CASE("two facing plates exchange what their view factor says", "[ray-light]
     // Light from the side of -x passes above the first plate's top edge and falls on the whole of the second.
     draw_square(geometry, 1, {0, 1, 0.5}, {0, 1, 0}, {0, 0, 1}, 1);
     draw_square(geometry, 3, {2, 1, 0.5}, {0, 1, 0}, {0, 0, 1}, 1);
-    plants.exchange(light);
+    plants.exchange(light, 1);
     const double on_second = plants.parameters()[4] / 0.95;
     const double on_first_from_sun = 2 * 86.4;
     const double distance = 2, x = 1 / distance;  // Howell, Siegel & Menguc 2010, C-11: unit squares
@@ -100,7 +100,7 @@ TEST_CASE("a solid takes the light away from what is behind it, and reflects its
     plants.add({{{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}});
     draw_square(plants.interpretation(0).geometry, 1, {1, 1, 1}, {1, 0, 0}, {0, 0, 1}, 0.3);
     draw_square(plants.interpretation(0).geometry, 3, {2, 1, 1}, {1, 0, 0}, {0, 0, 1}, 0.3);
-    plants.exchange(light);
+    plants.exchange(light, 1);
     CHECK(plants.parameters()[0] == 0);
     CHECK(plants.parameters()[2] == Approx(1).epsilon(0.03));
     CHECK(std::abs(statistic(light, "closure")) < 1e-6);
@@ -131,8 +131,8 @@ TEST_CASE("sensors count the light that passes them, and take none of it", "[ray
     AskingPlants plants;
     plants.add({{{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}});
     draw_at_random(plants.interpretation(0).geometry, 1, 3000, 0.05, 4);
-    plants.exchange(counted);
-    plants.exchange(plain);
+    plants.exchange(counted, 1);
+    plants.exchange(plain, 1);
     CHECK(statistic(counted, "absorbed") == Approx(statistic(plain, "absorbed")).epsilon(0.002));
     CHECK(statistic(counted, "sensor.top") == Approx(86.4).epsilon(1e-6));
     CHECK(statistic(counted, "sensor.below") == 0);
@@ -212,7 +212,7 @@ TEST_CASE("triangles without area take no light and do no harm", "[ray-light]") 
     plants.add({{{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}});
     PlantGeometry& geometry = plants.interpretation(0).geometry;
     for (int i = 0; i < 200000; ++i) draw_square(geometry, 1, {1, 1, 1}, {1, 0, 0}, {1, 0, 0}, 0);
-    plants.exchange(light);
+    plants.exchange(light, 1);
     CHECK(statistic(light, "absorbed") == 0);
     CHECK(statistic(light, "leaf_area") == 0);
 }
@@ -227,7 +227,7 @@ TEST_CASE("organs know the light of either side, their sunlit share and where it
         plants.add({{{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}});
         PlantGeometry& geometry = plants.interpretation(0).geometry;
         draw_square(geometry, 1, {1, 1, 1}, {1, 0, 0}, {0, 0, -1}, 0.04);
-        plants.exchange(light);
+        plants.exchange(light, 1);
         const auto values = [&](const char* name) { return *light.organ_values(std::string("light.") + name, 0); };
         CAPTURE(process);
         CHECK(values("front")[1] == Approx(0.0016 * 86.4).epsilon(0.05));

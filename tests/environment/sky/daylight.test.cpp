@@ -36,7 +36,18 @@ struct Measured {
     std::string refusal() const {
         return message_of([&] { DaylightSeries(settings, least_elevation); });
     }
+    std::vector<Diagnostic> warnings() const {
+        std::vector<Diagnostic> all;
+        DaylightSeries(settings, least_elevation, &all);
+        return all;
+    }
 };
+
+double from_suns(const Daylight& light) {
+    double sum = 0;
+    for (const LightBeam& beam : light.beams) sum += beam.is_sun ? beam.photons * beam.towards.y : 0;
+    return sum;
+}
 
 double beams_on_ground(const Daylight& light) {
     double sum = 0;
@@ -77,9 +88,116 @@ TEST_CASE("columns of a series may stand in any order and in other units, with d
     const Daylight light = watts.over(0.5 - 1 / 24.0, 1 / 12.0);
     CHECK(light.energy == Approx(2 * 3600 * 200));
     CHECK(light.on_ground == Approx(2 * 3600 * 100 * 4.57e-6));
-    double from_sun = 0;
-    for (const LightBeam& beam : light.beams) from_sun += beam.is_sun ? beam.photons * beam.towards.y : 0;
-    CHECK(from_sun == Approx(0.5 * light.on_ground));
+    CHECK(from_suns(light) == Approx(0.5 * light.on_ground));
+}
+
+TEST_CASE("the diffuse light may be measured in watts, in photons or as a share, and so may the direct light",
+          "[sky]") {
+    for (const auto& [header, cells] :
+         {std::pair{"global (W m-2),diffuse (W m-2)", "400,100"},
+          {"global (W m-2),direct (W m-2)", "400,300"},
+          {"par (umol m-2 s-1),diffuse (umol m-2 s-1)", "914,228.5"},
+          {"PAR (\xC2\xB5mol m\xE2\x81\xBB\xC2\xB2 s\xE2\x81\xBB\xC2\xB9),direct (umol/m2/s)", "914,685.5"},
+          {"Global (W m^-2),diffuse (umol m-2 s-1)", "400,228.5"},
+          {"global (W m-2),diffuse share (1)", "400,0.25"},
+          {"global (W m-2),diffuse share", "400,0.25"},
+          {"global (W m-2),diffuse (%)", "400,25"},
+          {"par (umol m-2 s-1),diffuse (1)", "914,0.25"}}) {
+        const std::string row = std::string(",") + cells + "\n";
+        const Measured measured("time (h)," + std::string(header) + "\n11" + row + "12" + row + "13" + row);
+        CAPTURE(header);
+        CHECK(measured.warnings().empty());
+        const Daylight light = measured.over(11 / 24.0, 2 / 24.0);
+        CHECK(light.on_ground == Approx(2 * 3600e-6 * 914));
+        CHECK(light.energy == Approx(2 * 3600 * 400));
+        CHECK(from_suns(light) == Approx(0.75 * light.on_ground));
+    }
+}
+
+TEST_CASE("diffuse light that sensors and their rounding make more than all is all of it", "[sky]") {
+    for (const auto& [global, diffuse] : {std::pair{"0.336", "0.34"}, {"9", "12"}, {"200", "210"}}) {
+        const std::string row = std::string(",") + global + "," + diffuse + "\n";
+        const Daylight light =
+            Measured("time (h),global (W m-2),diffuse (W m-2)\n11" + row + "13" + row).over(11 / 24.0, 2 / 24.0);
+        CHECK(light.energy == Approx(7200 * std::stod(global)));
+        CHECK(from_suns(light) == 0);
+    }
+    CHECK(lacks(Measured("time (h),global (W m-2),diffuse share (1)\n11,9,40\n12,9,40\n").refusal(),
+                {"light.csv:2", "diffuse share is 40", "%"}) == "");
+}
+
+TEST_CASE("codes of missing values are not light: other columns stand for them, or the series is refused", "[sky]") {
+    const std::string head = "time (h),global (W m-2),diffuse (W m-2),par (umol m-2 s-1)\n";
+    const auto rows = [&](const std::string& noon) {
+        return head + "11,400,100,914\n12," + noon + "\n13,400,100,914\n";
+    };
+    const Daylight whole = Measured(rows("400,100,914")).over(11 / 24.0, 2 / 24.0);
+    for (const char* code :
+         {"9999", "9999.0", "99999", "-9999", "-999", "-99", "-6999", "7999", "NA", "nan", "", "-"}) {
+        CAPTURE(code);
+        for (const std::string& noon : {"400,100," + std::string(code), std::string(code) + ",100,914"}) {
+            const Measured measured(rows(noon));
+            const Daylight light = measured.over(11 / 24.0, 2 / 24.0);
+            CHECK(light.on_ground == Approx(whole.on_ground));
+            CHECK(light.energy == Approx(whole.energy));
+            CHECK(from_suns(light) == Approx(from_suns(whole)));
+            REQUIRE(measured.warnings().size() == 1);
+            CHECK(lacks(to_string(measured.warnings()[0]),
+                        {"light.csv:3", "was not measured in a cell", "other columns"}) == "");
+        }
+        // What the sky's share is, Erbs et al. tell where nobody measured it.
+        const Measured erbs(rows("400," + std::string(code) + ",914"));
+        CHECK(erbs.over(11 / 24.0, 2 / 24.0).on_ground == Approx(whole.on_ground));
+        CHECK(erbs.warnings().size() == 1);
+        const std::string both = std::string(code) + ",100," + code;
+        CHECK(lacks(Measured(rows(both)).refusal(), {"light.csv:3:2", "'global'", "no holes", "Fill it"}) == "");
+    }
+    CHECK(Measured(head + "9,0,NA,0\n10,0,9999,0\n11,400,100,914\n12,400,100,914\n").warnings().empty());
+    CHECK(lacks(Measured(head + "11,40000,100,914\n12,1,1,1\n").refusal(), {"light.csv:2:2", "than the sun", "unit"}) ==
+          "");
+}
+
+TEST_CASE("an hour may be what stands for a missing value elsewhere", "[sky]") {
+    const Measured measured("time (h),global (W m-2)\n9996,400\n9999,400\n10002,400\n", "latitude = 85\nday = 120\n");
+    CHECK(measured.over(9996 / 24.0, 6 / 24.0).energy == Approx(6 * 3600 * 400));
+}
+
+TEST_CASE("what a dark sensor shows below 0 is no light", "[sky]") {
+    const Measured measured("time (h),global (W m-2),par (umol m-2 s-1)\n0,-3.5,-0.2\n12,-20,-20\n24,800,1600\n",
+                            "latitude = 80\nday = 172\n");
+    CHECK(measured.over(0, 0.5).energy == 0);
+    CHECK(measured.over(0, 0.5).on_ground == 0);
+    CHECK(measured.over(0.5, 0.5).energy == Approx(12 * 3600 * 400));
+    CHECK(measured.warnings().empty());
+}
+
+TEST_CASE("cells may be separated by semicolons or tabs, behind a byte-order mark", "[sky]") {
+    const Daylight commas = Measured("time (h),global (W m-2)\n11,400.5\n12,300.25\n").over(11 / 24.0, 1 / 24.0);
+    for (const char* text : {"\xEF\xBB\xBFtime (h),global (W m-2)\n11,400.5\n12,300.25\n",
+                             "time (h);global (W m-2)\r\n11;400.5\r\n12;300.25\r\n",
+                             "\xEF\xBB\xBFtime (h);global (W m-2)\n11;400,5\n12;300,25\n",
+                             "time (h)\tglobal (W m-2)\n11\t400.5\n12\t300,25\n"}) {
+        CHECK(Measured(text).over(11 / 24.0, 1 / 24.0).energy == Approx(commas.energy));
+    }
+    CHECK(lacks(Measured("time (h);glbal (W m-2)\n11;1\n").refusal(),
+                {"neither 'global", "which semicolons separate"}) == "");
+    CHECK(lacks(Measured("time (h)\tglobal (W m-2)\n11\t1\t1\n").refusal(), {"3 cells", "which tabs separate"}) == "");
+    CHECK(lacks(Measured("\xFF\xFEt\0i\0").refusal(), {"light.csv:1", "UTF-16", "UTF-8"}) == "");
+    const auto near = Measured("time (h),global (W m-2),difuse (W m-2)\n11,4,4\n12,3,3\n").warnings();
+    REQUIRE(near.size() == 1);
+    CHECK(lacks(to_string(near[0]), {"light.csv:1:3", "'difuse' is not read", "'diffuse'"}) == "");
+}
+
+TEST_CASE("seven steps of a day spend seven days, and step 0 has the light of the first", "[sky]") {
+    std::string rows = "time (d),par (umol m-2 s-1)\n";
+    for (int day = 0; day <= 7; ++day) rows += std::to_string(day) + "," + std::to_string(100 + 10 * day) + "\n";
+    const Measured measured(rows, "latitude = 80\nday = 170\n");
+    const DaylightSeries series(measured.settings, least_elevation);
+    double sum = 0;
+    for (int step = 1; step <= 7; ++step) sum += series.of_step(step, 1).on_ground;
+    CHECK(sum == Approx(86400e-6 * 7 * 135));
+    CHECK(series.of_step(0, 1).on_ground == series.of_step(1, 1).on_ground);
+    CHECK(series.of_step(1, 1).on_ground == Approx(86400e-6 * 105));
 }
 
 TEST_CASE("a step of a week counts every row of it", "[sky]") {
@@ -99,7 +217,7 @@ TEST_CASE("a series that cannot be is refused with file and line, in one line", 
     const std::string head = "time (h),global (W m-2)\n";
     CHECK(lacks(Measured(head + "0,0\n1,nan\n2,5\n").refusal(), {"light.csv:3:2", "'nan'", "no holes"}) == "");
     CHECK(lacks(Measured(head + "0,0\n1,\n2,5\n").refusal(), {"light.csv:3:2"}) == "");
-    CHECK(lacks(Measured(head + "0,0\n1,-4\n2,5\n").refusal(), {"light.csv:3:2", "below 0"}) == "");
+    CHECK(lacks(Measured(head + "0,0\n1,-21\n2,5\n").refusal(), {"light.csv:3:2", "below 0"}) == "");
     CHECK(lacks(Measured(head + "0,1\n1,1\n5,1\n6,1\n").refusal(), {"light.csv:4", "gap in time", "4 hours"}) == "");
     CHECK(lacks(Measured(head + "0,1\n1,1\n1,1\n").refusal(), {"light.csv:4", "not after"}) == "");
     CHECK(lacks(Measured(head + "0,0\n1,0\n").refusal(), {"no light in any row"}) == "");

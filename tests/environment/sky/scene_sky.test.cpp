@@ -46,11 +46,11 @@ TEST_CASE("a sky that is covered has no sun, and at night it has no light", "[sk
 }
 
 TEST_CASE("a step is as many days long as the process says", "[sky]") {
-    // A step of a week, of which the middle day stands for all: day 100 + 3 weeks + 3.
+    // A step of a week, of which the middle day stands for all: the fourth has day 100 + 3 weeks + 3.
     const SceneSky weeks = sky_of(R"({"sky": {"latitude": 50, "day": 100, "hours": [12]}, "days": 3.5})", 2);
     const SceneSky day = sky_of(R"({"sky": {"latitude": 50, "day": 124, "hours": [12]}})");
-    REQUIRE(weeks.at_step(3).sun);
-    CHECK(glm::length(*weeks.at_step(3).sun - *day.at_step(0).sun) < 1e-12);
+    REQUIRE(weeks.at_step(4).sun);
+    CHECK(glm::length(*weeks.at_step(4).sun - *day.at_step(0).sun) < 1e-12);
 }
 
 TEST_CASE("the kind of a sky is that of its radiance", "[sky]") {
@@ -68,7 +68,7 @@ TEST_CASE("a measured sky is read beside the scene; without its file, or beyond 
     CHECK_THROWS_WITH(sky_of(process, 1, folder.path()), Contains("the sky of 'light' cannot be drawn"));
     write_text(folder.path() / "light.csv", "time (h),par (umol m-2 s-1)\n10,800\n11,1000\n12,1000\n");
     const SceneSky sky = sky_of(process, 1, folder.path());
-    CHECK(sky.at_step(11).par == Approx(1000 - 200 * 0.44 / 2 * (0.44 / 0.96)).epsilon(1e-3));
+    CHECK(sky.at_step(12).par == Approx(1000 - 200 * 0.44 / 2 * (0.44 / 0.96)).epsilon(1e-3));
     CHECK_THROWS_AS(sky.at_step(40), RunError);
 }
 
