@@ -321,7 +321,7 @@ TEST_CASE("the stem, the thickness, the leaves and the droop of the tree are dra
     REQUIRE(first->is_whole);
     CHECK(first->watcher.derived == 13);
     for (const std::string setting :
-         {"STEM_LENGTH = 3", "THICKNESS = 1.5", "LEAF_SIZE = 0.3", "LEAVES = 0", "DROOP = 0.4"}) {
+         {"STEM_LENGTH = 3", "THICKNESS = 1.5", "LEAF_SIZE = 0.3", "LEAVES = 0", "DROOP = 0.4", "BARK_COLOUR = 3"}) {
         INFO(setting);
         const std::string changed = with_settings("CROWN_WIDTH = 3, " + setting);
         const auto redrawn = grower.grow(changed, first->growth.get(), 12);
