@@ -310,6 +310,28 @@ TEST_CASE("what stages draw of plants that ask is drawn again without a step, wh
     CHECK(height(*kept[2]) == Approx(height(*first) + 2));
 }
 
+TEST_CASE("the stem, the thickness, the leaves and the droop of the tree are drawn again without a step", "[studio]") {
+    const fs::path file = fs::path(ESPALIER_SOURCE_DIR) / "environments/tree.toml";
+    const std::string text = read_text(file), model = "colour_map =";
+    Grower grower(file);
+    const auto with_settings = [&](const std::string& settings) {
+        return with(text, model, "define = { " + settings + " }\n" + model);
+    };
+    const auto first = grower.grow(with_settings("CROWN_WIDTH = 3"), nullptr, 12, 0);
+    REQUIRE(first->is_whole);
+    CHECK(first->watcher.derived == 13);
+    for (const std::string setting :
+         {"STEM_LENGTH = 3", "THICKNESS = 1.5", "LEAF_SIZE = 0.3", "LEAVES = 0", "DROOP = 0.4", "BARK_COLOUR = 3"}) {
+        INFO(setting);
+        const std::string changed = with_settings("CROWN_WIDTH = 3, " + setting);
+        const auto redrawn = grower.grow(changed, first->growth.get(), 12);
+        REQUIRE(redrawn->is_whole);
+        CHECK(redrawn->watcher.derived == 0);
+        check_same(*redrawn, *grower.grow(changed, nullptr, 12, 0));
+    }
+    CHECK(grower.grow(with_settings("CROWN_WIDTH = 4"), first->growth.get(), 12)->watcher.derived == 13);
+}
+
 TEST_CASE("what comes back to the strings of plants that ask is grown anew", "[studio]") {
     const TemporaryFolder folder;
     folder.write("asking.l", asking_tree);
@@ -319,7 +341,8 @@ TEST_CASE("what comes back to the strings of plants that ask is grown anew", "[s
     const auto first = grower.grow(asking_scene, nullptr, 5, 0);
     for (const std::string& text :
          {with(asking_scene, "voxel = 0.5", "voxel = 0.4"), with(asking_scene, "seed = 3", "seed = 4"),
-          with(asking_scene, "asking.l\"", "asking.l\"\nposition = [1, 0, 0]"), with(asking_scene, "asking.l", "other.l"),
+          with(asking_scene, "asking.l\"", "asking.l\"\nposition = [1, 0, 0]"),
+          with(asking_scene, "asking.l", "other.l"),
           with(asking_scene, "asking.l\"", "asking.l\"\ndefine = { SHARE = 0.8 }"),
           with(asking_scene, "voxel = 0.5", "voxel = 0.5\nstrength = 0.3")}) {
         INFO(text);

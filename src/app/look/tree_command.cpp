@@ -35,7 +35,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* scene_file = "environments/tree.toml";
 constexpr int fewest_sides = 3;   // few vertices, as in Brzoska 2019, section 5.1
-constexpr int sides_if_bare = 6;  // with half of the triangles, tubes that have sides to lose keep their outline
+constexpr int sides_if_bare = 7;  // with half of the triangles, tubes that have sides to lose keep their outline
 
 /// What can be said of the tree, and how: found where the program's scenes and models are.
 struct TreeKind {
@@ -183,7 +183,7 @@ private:
             text += fmt::format("  {:{}}  {}\n", name, width, describe_file(kind_->preset(name)).summary);
         }
         return text + R"(
-Without --sides, branches of a tree without leaves have 6 sides.
+Without --sides, branches of a tree without leaves have 7 sides.
 An option counts more than --settings, and that more than --preset. A file that is there stays: a new one is numbered.
 Examples:
   espalier tree --output oak.obj

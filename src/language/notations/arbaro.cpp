@@ -9,15 +9,14 @@ namespace {
 
 const Registered<NotationType> entry{
     {"arbaro", ".xml", "trees in the parameters of Weber & Penn (1995), in the XML of Arbaro",
-     R"(<arbaro>
-  <species name="aspen">
-    <param name="Shape" value="7"/>
-    <param name="1Length" value="0.3"/>
-  </species>
-</arbaro>
+     R"(A file has the parameters of one species:
 
-One species a file. The parameters are those of `.species` files, with the same units, ranges and defaults: `espalier list
-notations species`. LeafShape may be a word: disc and disc1 to disc9 are ovals.
+    <arbaro><species name="aspen">
+    <param name="Shape" value="7"/> <param name="1Length" value="0.3"/>
+    </species></arbaro>
+
+They are those of `.species` files, with the same units, ranges and defaults: `espalier list notations species`. LeafShape may be a
+word: disc and disc1 to disc9 are ovals.
 
 Smooth      not read: it shades the facets of Arbaro's meshes
 0DownAngle, 0DownAngleV, 0Rotate, 0RotateV, 0Branches, 0BranchDist  not read: there is one trunk, and it stands upright

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 
 namespace espalier::language::weber_penn {
@@ -88,9 +89,26 @@ private:
     SpeciesBuilder builder_;
 };
 
+/// The first character that is not blank, behind a name and `=` if a brace follows.
+char begins_with(const std::string& text) {
+    const auto skip_blanks = [&](std::size_t at) {
+        return std::min(text.find_first_not_of(" \t\r\n", at), text.size());
+    };
+    const std::size_t first = skip_blanks(0);
+    std::size_t at = first;
+    while (at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_')) ++at;
+    at = skip_blanks(at);
+    if (at < text.size() && text[at] == '=') at = skip_blanks(at + 1);
+    if (at < text.size() && text[at] == '{') return '{';
+    return first < text.size() ? text[first] : ' ';
+}
+
 }  // namespace
 
 Species parse(const std::string& text, const std::string& name) {
+    const char first = begins_with(text);
+    if (first == '<') return parse_arbaro(text, name);
+    if (first == '{' || first == '#') return parse_tree_gen(text, name);
     return SpeciesReader(text, name).read();
 }
 

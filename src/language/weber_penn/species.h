@@ -60,7 +60,8 @@ private:
     std::map<std::string, Location> places_;
 };
 
-/// Reads a table as the paper prints it; `name` stands in messages. Throws UserError with every mistake at its place.
+/// Reads a table as the paper prints it, or one of the forms below, by how the text begins; `name` stands in messages.
+/// Throws UserError with every mistake at its place.
 Species parse(const std::string& text, const std::string& name);
 /// The same of the XML of Arbaro (W. Diestel 2003 to 2012).
 Species parse_arbaro(const std::string& text, const std::string& name);

@@ -89,7 +89,8 @@ private:
 
     Entry read_entry() {
         skip_blanks();
-        Entry entry{.at = at()};
+        Entry entry;
+        entry.at = at();
         const char quote = at_end() ? ' ' : next();
         if (quote != '\'' && quote != '"') fail("expected the name of a parameter in quotes");
         advance();
@@ -199,7 +200,7 @@ const std::map<std::string, std::pair<double, const char*>>& unread() {
 class TreeGenReader {
 public:
     TreeGenReader(const std::string& text, const std::string& file)
-        : entries_(DictReader(text, file).read()), builder_(text, file, "tree-gen") {}
+        : entries_(DictReader(text, file).read()), builder_(text, file, "species") {}
 
     Species read() {
         for (const Entry& entry : entries_) {
@@ -231,7 +232,7 @@ private:
         for (const auto& [name, here] : names_of_tree()) names.push_back(name);
         for (const auto& [name, here] : names_of_levels()) names.push_back(name);
         builder_.mistake(entry.at,
-                         fmt::format("there is no parameter '{}'{}; 'espalier list notations tree-gen' has them "
+                         fmt::format("there is no parameter '{}'{}; 'espalier list notations species' has them "
                                      "all",
                                      entry.key, did_you_mean(entry.key, names)));
     }

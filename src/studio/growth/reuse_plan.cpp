@@ -249,21 +249,34 @@ std::string settings_without_stages(const Scene& scene) {
     return settings.dump() + processes.dump();
 }
 
-// Only their stages differ.
+// Of the turtle they change its colour alone, which no answer depends on.
+bool is_of_colours(const ParameterChanges& changes, const Model& model) {
+    const std::vector<LetterId> letters = changes.letters();
+    return std::all_of(letters.begin(), letters.end(), [&](LetterId letter) {
+        const std::string& name = model.alphabet.name(letter);
+        return name == ";" || name == ",";
+    });
+}
+
+// Only their stages and colours differ.
 std::optional<ReusePlan> plan_for_stages(const Origin& before, const Origin& now) {
     const std::size_t count = now.scene.plants.size();
     if (settings_without_stages(before.scene) != settings_without_stages(now.scene) ||
         !has_same_side_files(before, now)) {
         return std::nullopt;
     }
+    ReusePlan found;
     for (std::size_t i = 0; i < count; ++i) {
         const Plant &a = before.scene.plants[i], &b = now.scene.plants[i];
         Comparison compared(source_of(*a.model), source_of(*b.model));
         const auto changes = compared.changes();
-        if (!changes || !changes->empty() || !compared.is_same_drawing()) return std::nullopt;
+        if (!changes || !is_of_colours(*changes, source_of(*b.model)) || !compared.is_same_drawing())
+            return std::nullopt;
         if (a.stream != b.stream || first_difference(a.insertions, b.insertions) != INT_MAX) return std::nullopt;
+        if (!changes->empty() && !b.insertions.empty()) return std::nullopt;
+        found.plants.push_back(changes->empty() ? nullptr : changes);
     }
-    return ReusePlan{INT_MAX, std::vector<std::shared_ptr<const ParameterChanges>>(count)};
+    return found;
 }
 
 bool is_query(const Model& model, LetterId letter) {
@@ -322,6 +335,12 @@ bool stages_draw_apart(const World& world) {
 
 void ParameterChanges::add(LetterId letter, std::size_t parameter, double from, double to) {
     changes_[{letter, parameter}].emplace_back(std::bit_cast<std::uint64_t>(from), to);
+}
+
+std::vector<LetterId> ParameterChanges::letters() const {
+    std::vector<LetterId> letters;
+    for (const auto& [slot, values] : changes_) letters.push_back(slot.first);
+    return letters;
 }
 
 void ParameterChanges::apply(ModuleString& string) const {

@@ -41,6 +41,8 @@ public:
 
     void add(LetterId letter, std::size_t parameter, double from, double to);
     bool empty() const { return changes_.empty(); }
+    /// The letters of the parameters.
+    std::vector<LetterId> letters() const;
     void apply(ModuleString& string) const;
 
 private:

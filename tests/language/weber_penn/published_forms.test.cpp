@@ -8,7 +8,7 @@ using namespace espalier;
 
 namespace {
 
-const NotationText table{"species", "tree"}, arbaro{"arbaro", "tree"}, tree_gen{"tree-gen", "tree"};
+const NotationText table{"species", "tree"}, arbaro{"arbaro", "tree"}, tree_gen{"species", "tree"};
 
 /// The first parameters of the quaking aspen (Weber & Penn 1995, table 2), as each program writes them.
 const std::string of_paper =
@@ -105,10 +105,11 @@ TEST_CASE("species: the paper's table, Arbaro's XML and tree-gen's arrays are on
     CHECK_THAT(model, Catch::Contains("#define Branches_1 50"));
     CHECK(arbaro.model_of(as_arbaro(of_paper)) == model);
     CHECK(tree_gen.model_of(of_tree_gen) == model);
-    for (const char* notation : {"species", "arbaro", "tree-gen"}) {
-        const std::string text = notation == std::string("arbaro") ? as_arbaro(of_paper) : of_tree_gen;
-        CHECK(warnings_of(notation, notation == std::string("species") ? of_paper : text).empty());
-    }
+    CHECK(table.model_of(as_arbaro(of_paper)) == model);
+    CHECK_FALSE(table.model_of(" \n").empty());  // all defaults
+    CHECK(warnings_of("species", of_paper).empty());
+    CHECK(warnings_of("arbaro", as_arbaro(of_paper)).empty());
+    CHECK(warnings_of("species", of_tree_gen).empty());
 }
 
 TEST_CASE("species: what Arbaro's and tree-gen's files say and nothing reads is named once", "[species]") {
@@ -121,7 +122,7 @@ TEST_CASE("species: what Arbaro's and tree-gen's files say and nothing reads is 
     CHECK_THAT(warnings[1], Catch::StartsWith("tree:9:5: '0Rotate' is not read: there is one trunk"));
     CHECK_THAT(warnings[2], Catch::Contains("'sphere' are drawn as ovals"));
     const std::vector<std::string> others = warnings_of(
-        "tree-gen", "{'levels': 2, 'branch_dist': [0, 1.5, 0, 0], 'tropism': [1, 0, 0], 'branches': [3, 20, 0, 0]}");
+        "species", "{'levels': 2, 'branch_dist': [0, 1.5, 0, 0], 'tropism': [1, 0, 0], 'branches': [3, 20, 0, 0]}");
     REQUIRE(others.size() == 3);
     CHECK_THAT(others[0], Catch::StartsWith("tree:1:34: this number of 'branch_dist' is not read: whorls"));
     CHECK_THAT(others[1], Catch::Contains("'tropism' is not read"));
@@ -139,7 +140,8 @@ TEST_CASE("species: mistakes in published forms are told at their places", "[spe
     CHECK_THAT(arbaro.mistake("<arbaro><species/><species/></arbaro>"), Catch::Contains("a second species"));
     CHECK_THAT(arbaro.mistake("<arbaro><species>"), Catch::Contains("tree:1:18: "));
     CHECK_THAT(tree_gen.mistake("params = {'shape': 7"), Catch::Contains("tree:1:21: expected ',' or '}'"));
-    CHECK_THAT(tree_gen.mistake("import os"), Catch::Contains("expected '='"));
+    CHECK_THAT(tree_gen.mistake("import os"), Catch::Contains("expected '=' between the names"));
+    CHECK_THAT(tree_gen.mistake("# aspen\nparams {"), Catch::Contains("tree:2:8: expected '='"));
     CHECK_THAT(tree_gen.mistake("{'shap': 7}"),
                Catch::Contains("there is no parameter 'shap' (did you mean 'shape'?)"));
     CHECK_THAT(tree_gen.mistake("{'shape': 9}"), Catch::Contains("tree:1:11: 'Shape' must be from 0 to 8, not 9"));
