@@ -1,4 +1,4 @@
-// Conductances that a model says of its own roots.
+// What a model says of its own roots: their conductances, or their ages.
 #pragma once
 
 #include "espalier/environment/environment_process.h"
@@ -9,13 +9,15 @@
 namespace espalier::environment {
 
 /// By internode; NaN where the model says nothing, empty where it says nothing at all.
-struct SaidConductances {
+struct SaidOfRoots {
     std::vector<double> radial;  ///< 1/d
     std::vector<double> axial;   ///< cm3/d
+    std::vector<double> ages;    ///< days
 
-    /// Reads the fifth and sixth parameter of the queries to `process`, each for the internode before it. Throws
-    /// RunError for a radial one below 0, and an axial one that is not above 0.
-    static SaidConductances of(const PlantView& plant, const std::string& process);
+    /// Reads the queries to `process`, each for the internode before it: the fifth of five parameters is its age, the
+    /// fifth and sixth of six are its conductances. Throws RunError for an age or a radial conductance below 0, and an
+    /// axial one that is not above 0.
+    static SaidOfRoots of(const PlantView& plant, const std::string& process);
 };
 
 }  // namespace espalier::environment
