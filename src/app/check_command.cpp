@@ -3,6 +3,7 @@
 #include "espalier/turtle/symbol.h"
 
 #include "base/json_text.h"
+#include "base/text.h"
 #include "command.h"
 #include "model_library.h"
 #include "options.h"
@@ -48,6 +49,21 @@ void review_model(const std::shared_ptr<const CompiledModel>& compiled, Findings
         model.arithmetic == Arithmetic::cpfg ? "; computes with the arithmetic of cpfg" : ""));
 }
 
+// What the models ask and no process of the scene answers.
+void note_defaults(const Scene& scene, const Environment& environment, Findings& findings) {
+    std::set<const CompiledModel*> seen;
+    for (const Plant& plant : scene.plants) {
+        if (!seen.insert(plant.model.get()).second) continue;
+        const Model& model = source_of(*plant.model);
+        for (const std::string& name : environment.answered_by_default(model)) {
+            std::vector<std::string> values;
+            for (const double value : model.default_answers.at(name)) values.push_back(format_general(value));
+            findings.facts.push_back(fmt::format("{}: no process '{}', so queries ?{} are answered its default, {}",
+                                                 model.path.string(), name, name, fmt::join(values, ", ")));
+        }
+    }
+}
+
 void review_notes(const SceneNotes& notes, Findings& findings) {
     findings.diagnostics.insert(findings.diagnostics.end(), notes.diagnostics.begin(), notes.diagnostics.end());
     std::vector<std::string> files;
@@ -71,6 +87,7 @@ void review_scene(const Scene& scene, Findings& findings) {
     std::string processes;
     for (std::size_t i = 0; i < world.environment().size(); ++i)
         processes += (i ? ", " : "") + world.environment().name(i);
+    note_defaults(scene, world.environment(), findings);
     review_notes(scene.notes, findings);
     findings.diagnostics.insert(findings.diagnostics.end(), world.warnings().begin(), world.warnings().end());
     const std::string name = scene.path.empty() ? scene.name : scene.path.string();

@@ -39,10 +39,10 @@ struct DeriveArguments {
     std::string explained;  ///< a symbol: what became of its modules is told instead; empty: none
 };
 
-// Answers ?P ?H ?L ?U ?Q; queries to processes keep their parameters.
-class TurtleAnswers {
+// Answers ?P ?H ?L ?U ?Q; queries to processes are answered the defaults of the model, or keep their parameters.
+class AnswersAlone {
 public:
-    explicit TurtleAnswers(const Plant& plant)
+    explicit AnswersAlone(const Plant& plant)
         : model_(source_of(*plant.model)),
           turtle_(plant.turtle),
           symbols_(symbol_table(model_)),
@@ -50,9 +50,10 @@ public:
 
     bool asks() const { return asks_; }
 
-    void exchange(ModuleString& string, const Derivation& derivation) {
+    void answer(ModuleString& string, const Derivation& derivation, bool only_turtle) {
         if (!asks_) return;
         interpret(model_, *symbols_, string, turtle_, &derivation, {}, interpretation_);
+        if (!only_turtle) turtle::write_default_answers(model_, interpretation_.queries, string);
         write_turtle_answers(interpretation_, string);
         if (model_.arithmetic == Arithmetic::double_precision) return;
         for (double& value : string.parameters) value = stored(value, model_.arithmetic);
@@ -97,7 +98,7 @@ ModuleString derive_alone(const Scene& scene, const DeriveArguments& arguments, 
     };
     derivation.set_length(scene.steps.value_or(derivation.length()));
 
-    TurtleAnswers answers(plant);
+    AnswersAlone answers(plant);
     ModuleString string, next;
     const simulation::Insertions insertions(plant);
     grow({[&] { return derivation.stopped() || derivation.steps_done() >= derivation.length(); },
@@ -112,7 +113,7 @@ ModuleString derive_alone(const Scene& scene, const DeriveArguments& arguments, 
               std::swap(string, next);
               insertions.apply(derivation.steps_done(), string);
           },
-          [&] { answers.exchange(string, derivation); }, [&] { answers.exchange(string, derivation); }},
+          [&] { answers.answer(string, derivation, false); }, [&] { answers.answer(string, derivation, true); }},
          before_exchange);
     return string;
 }

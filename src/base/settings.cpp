@@ -262,6 +262,12 @@ bool Settings::is_table(std::string_view key) const {
     return node && node->type == Type::table;
 }
 
+bool Settings::is_text(std::string_view key) const {
+    const Node* node = node_->find(key);
+    if (node && node->type == Type::array && !node->items.empty()) node = node->items.front().get();
+    return node && node->type == Type::text;
+}
+
 std::string Settings::value_text(std::string_view key) const {
     const Node& node = node_->require(key, "a value");
     switch (node.type) {

@@ -50,10 +50,11 @@ void visit_written_queries(const Model& model, const Visit& visit) {
 
 }  // namespace
 
-bool asks_processes(const Model& model) {
-    bool asks = !model.processes.empty();
-    visit_written_queries(model, [&](const ModuleTemplate&, bool is_unnamed) { asks = asks || is_unnamed; });
-    return asks;
+bool needs_processes(const Model& model) {
+    bool needs = std::any_of(model.processes.begin(), model.processes.end(),
+                             [&](const std::string& name) { return !model.default_answers.contains(name); });
+    visit_written_queries(model, [&](const ModuleTemplate&, bool is_unnamed) { needs = needs || is_unnamed; });
+    return needs;
 }
 
 Environment::Environment(const std::vector<std::pair<std::string, Settings>>& tables,
@@ -101,9 +102,17 @@ void Environment::set_default(const std::string& name) {
     }
 }
 
+std::vector<std::string> Environment::answered_by_default(const Model& model) const {
+    std::vector<std::string> names;
+    for (const auto& [name, answer] : model.default_answers) {
+        if (!find(name)) names.push_back(name);
+    }
+    return names;
+}
+
 void Environment::require_answers(const Model& model, const std::string& plant_name) const {
     for (const std::string& name : model.processes) {
-        if (find(name) || keeps_unanswered_) continue;
+        if (find(name) || keeps_unanswered_ || model.default_answers.contains(name)) continue;
         throw UserError(
             fmt::format("plant '{}': model {} declares `environment {};` but the scene has no process of "
                         "that name{}; {}",

@@ -346,3 +346,28 @@ TEST_CASE_METHOD(Workplace, "a result that cannot be written out is a failure", 
         CHECK_THAT(outcome.err, Contains("standard output"));
     }
 }
+
+TEST_CASE_METHOD(Workplace, "a query to a process that is not there is answered its default, and check says so",
+                 "[app]") {
+    write("root.l",
+          "environment nitrate = 10;\nlsystem: 1\nderivation length: 2\naxiom: A?nitrate(0)\n"
+          "A?nitrate(c) --> F(c)A?nitrate(0)\nendlsystem\n");
+    const Outcome alone = run("derive root.l");
+    CHECK(alone.out == "F(10)F(10)A?nitrate(10)\n");
+    CHECK(alone.err.empty());
+    CHECK(run("derive root.l --before-exchange").out == "F(10)F(10)A?nitrate(0)\n");
+    CHECK_THAT(run("check root.l").out,
+               Contains("no process 'nitrate', so queries ?nitrate are answered its default, 10"));
+    const std::string box = "domain = { lower = [-9, -9, -9], upper = [9, 9, 9] }\nvoxel = 3\n";
+    write("without.toml", "[[plant]]\nmodel = 'root.l'\n[environment.water]\nprocess = 'soil-water'\n" + box);
+    CHECK(run("derive without.toml").out == "F(10)F(10)A?nitrate(10)\n");
+    write("with.toml", "[[plant]]\nmodel = 'root.l'\n[environment.nitrate]\nprocess = 'nutrient'\ninitial = 3\n" + box);
+    CHECK(run("derive with.toml").out == "F(3)F(3)A?nitrate(3)\n");
+    write("misspelt.toml", "[[plant]]\nmodel = 'root.l'\n[environment.nitrat]\nprocess = 'nutrient'\n" + box);
+    for (const char* const command : {"run misspelt.toml --output there", "check misspelt.toml"}) {
+        const Outcome outcome = run(command);
+        CHECK(outcome.code == 0);
+        CHECK_THAT(outcome.err + outcome.out,
+                   Contains("?nitrate is answered the default of root.l") && Contains("did you mean 'nitrat'?"));
+    }
+}

@@ -45,6 +45,20 @@ TEST_CASE("a model that declares a process the scene lacks is refused before ste
     CHECK_NOTHROW(environment.require_answers(model, "oak"));
 }
 
+TEST_CASE("a model that has a default for a process the scene lacks is not refused", "[environment]") {
+    const Environment environment = environment_of(two_processes);
+    Model model;
+    model.processes = {"light", "nitrate"};
+    model.default_answers = {{"light", {1}}, {"nitrate", {10}}};
+    model.systems.emplace_back();
+    CHECK_NOTHROW(environment.require_answers(model, "oak"));
+    CHECK(environment.answered_by_default(model) == std::vector<std::string>{"nitrate"});
+    CHECK_FALSE(needs_processes(model));
+    model.processes.push_back("water");
+    CHECK(needs_processes(model));
+    CHECK_THROWS_AS(environment.require_answers(model, "oak"), UserError);
+}
+
 TEST_CASE("a model that asks ?E where no process is default is refused with its place", "[environment]") {
     Environment environment = environment_of(two_processes);
     Model model;

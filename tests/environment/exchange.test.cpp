@@ -102,6 +102,21 @@ TEST_CASE("each name's queries reach its own process, and ?E the default", "[env
     CHECK(plants.parameters() == std::vector<double>{2, 3, 30});
 }
 
+TEST_CASE("queries without a process are answered the model's default, beside those of processes", "[environment]") {
+    Environment environment = environment_of("[light]\nprocess = \"test-echo\"\nfactor = 2\n");
+    AskingPlants plants({"light", "nitrate", "wind"});
+    plants.model().default_answers = {{"light", {99}}, {"nitrate", {10}}, {"wind", {1, 2, 3}}};
+    plants.add({{{0, 0, 0}, {1}, "light"}, {{0, 0, 0}, {1, 5}, "nitrate"}, {{0, 0, 0}, {0, 0}, "wind"}});
+    plants.add({{{0, 0, 0}, {7}, "nitrate"}});
+    plants.exchange(environment, 0);
+    CHECK(plants.parameters(0) == std::vector<double>{2, 10, 5, 1, 2});
+    CHECK(plants.parameters(1) == std::vector<double>{10});
+    plants.ask_again_with(4);
+    plants.exchange(environment, 1);
+    CHECK(plants.parameters(0) == std::vector<double>{8, 10, 4, 1, 2});
+    CHECK(plants.parameters(1) == std::vector<double>{10});
+}
+
 TEST_CASE("every process advances once before it answers, asked or not, in the scene's order", "[environment]") {
     Environment environment = environment_of("[b]\nprocess = \"test-echo\"\n[a]\nprocess = \"test-echo\"");
     log_of_calls().clear();

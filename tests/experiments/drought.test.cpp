@@ -24,8 +24,8 @@ Season season(const std::string& plant, const SceneOptions& options) {
         world.step();
         season.last = quantity(world, "roots.transpiration");
         season.depth.push_back(quantity(world, "roots.depth"));
-        const bool is_short = season.last < 0.95 * quantity(world, "roots.potential");
-        const bool wilts = season.last < 0.5 * quantity(world, "roots.potential") && world.steps_done() > 10;
+        const bool is_short = season.last < 0.95 * quantity(world, "roots.demand");
+        const bool wilts = season.last < 0.5 * quantity(world, "roots.demand") && world.steps_done() > 10;
         wilting = wilts ? wilting + 1 : 0;
         season.wilted = std::max(season.wilted, wilting);
         // Seedlings that have no roots yet do not count.

@@ -174,6 +174,25 @@ TEST_CASE("13 declared modules, processes, constants, symbols", "[conformance]")
     CHECK(mistake(lsystem_of("", "A", "A --> +(ANGLE)\n"), options).find("cannot be overridden") != std::string::npos);
 }
 
+TEST_CASE("13.4 a declared process may have a default", "[conformance]") {
+    quote(
+        "Several values, in braces, are for as many parameters: `environment wind = { 0, 0, 1 };`. The others keep "
+        "what the model wrote. A default is an "
+        "expression whose value is known before anything grows.");
+    const std::string rest = lsystem_of("", "A?light(1)", "A?light(q) --> A\n");
+    const auto model =
+        read("#define N 4\nconst k = 3;\nenvironment light = k * N, water, wind = { 0, -1,\n 2 };\n" + rest);
+    CHECK(model->processes == std::vector<std::string>{"light", "water", "wind"});
+    CHECK(model->default_answers == std::map<std::string, std::vector<double>>{{"light", {12}}, {"wind", {0, -1, 2}}});
+    CHECK(mistake("environment light = ran(1);\n" + rest).find("the default of 'light' has no value") !=
+          std::string::npos);
+    CHECK(mistake("environment light = { 1, 2;\n" + rest).find("expected '}' after the default of 'light'") !=
+          std::string::npos);
+    CHECK(mistake("environment light = 1;\nenvironment light = 2;\n" + rest).find("already has another default") !=
+          std::string::npos);
+    CHECK(read("environment light = 1;\nenvironment light;\n" + rest)->default_answers.size() == 1);
+}
+
 TEST_CASE("14 differences", "[conformance]") {
     quote(
         "A line that begins with `#` is a directive only if the directive is known: `#5 F` contains modules. A double "

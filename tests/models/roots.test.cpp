@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <set>
 #include <vector>
 
@@ -81,6 +82,84 @@ TEST_CASE("roots: maize has a primary root, seminal roots and whorls at their ti
     CHECK(roots_after("maize", 14, 1).at(0).axes == 1 + 4 + 4 + 5);
     CHECK(roots_after("wheat", 14, 1).at(0).axes == 5);
     CHECK(roots_after("wheat", 20, 1).at(0).axes == 5 + 2 * 2);
+}
+
+namespace {
+
+/// A root system of 25 days in a pot 16 cm wide and 12 cm deep; `soil`: more of the soil.
+std::unique_ptr<World> in_pot(const std::string& model, double step, const std::string& soil = "") {
+    const Scene scene = read_scene_text(
+        fmt::format("[simulation]\nsteps = {}\nseed = 4\ndt = {}\n[[plant]]\nmodel = \"models/roots/{}.l\"\n"
+                    "position = [0, {}, 0]\ndefine = {{ DT = {} }}\n[environment.nitrate]\nprocess = \"nutrient\"\n"
+                    "domain = {{ lower = [-0.08, -0.12, -0.08], upper = [0.08, 0, 0.08] }}\nvoxel = 0.02\n"
+                    "initial = 10\n{}",
+                    static_cast<int>(25 / step), step, model, model == "split" ? 0.001 : 0.0, step, soil),
+        "pot", source_path(""), {});
+    auto world = std::make_unique<World>(scene);
+    world->start();
+    while (!world->at_end()) world->step();
+    return world;
+}
+
+double length_of(const World& world) {
+    double length = 0;
+    for (const Internode& internode : world.interpretation(0).geometry.internodes) {
+        length += glm::length(internode.tip - internode.base);
+    }
+    return length;
+}
+
+}  // namespace
+
+TEST_CASE("roots: tips stop at the walls and the floor of a pot, whatever the length of a step", "[roots-models]") {
+    for (const std::string model : {"maize", "wheat", "lupine", "split"}) {
+        for (const double step : {0.5, 1.0}) {
+            INFO(model << ", steps of " << step << " d");
+            const auto pot = in_pot(model, step);
+            int at_wall = 0;
+            for (const Internode& internode : pot->interpretation(0).geometry.internodes) {
+                const glm::dvec3& tip = internode.tip;
+                const double room = std::min({0.08 - std::abs(tip.x), 0.08 - std::abs(tip.z), tip.y + 0.12});
+                CHECK(room > 0);
+                at_wall += room < 0.003;
+            }
+            CHECK(at_wall > 0);
+            CHECK(pot->warnings().empty());
+        }
+    }
+}
+
+TEST_CASE("roots: tips stop at a stone, and go through where soil has no sides", "[roots-models]") {
+    const std::string stone = "obstacles = [{ shape = \"sphere\", center = [0.02, -0.05, 0], radius = 0.02 }]\n";
+    const auto with_stone = in_pot("maize", 1, stone);
+    for (const Internode& internode : with_stone->interpretation(0).geometry.internodes) {
+        CHECK(glm::length(internode.tip - glm::dvec3(0.02, -0.05, 0)) > 0.02);
+    }
+    const auto pot = in_pot("maize", 1), field = in_pot("maize", 1, "sides = \"periodic\"\n");
+    CHECK(length_of(*field) > 1.1 * length_of(*pot));
+    double widest = 0;
+    for (const Internode& internode : field->interpretation(0).geometry.internodes) {
+        widest = std::max(widest, std::abs(internode.tip.x));
+        CHECK(internode.tip.y > -0.12);
+    }
+    CHECK(widest > 0.08);
+}
+
+TEST_CASE("roots: pieces say their age since the tip has passed, whatever the length of a step", "[roots-models]") {
+    for (const double step : {0.5, 2.0}) {
+        LonePlant plant("models/roots/lupine.l", {{"DT", fmt::format("{}", step)}, {"AGES", "1"}, {"WIGGLE", "0"}}, 3);
+        plant.grow(static_cast<int>(std::lround(20 / step)));
+        int told = 0;
+        for (const Query& query : plant.interpretation.queries) {
+            if (query.parameters.size() != 5) continue;
+            const glm::dvec3& at = query.pose.position;
+            if (std::hypot(at.x, at.z) > 1e-6) continue;
+            const double passed = -1.5 / 0.025 * std::log(1 + at.y / 1.5);
+            CHECK(query.parameters[4] == Approx(20 - passed).margin(1e-6));
+            ++told;
+        }
+        CHECK(told > 50);
+    }
 }
 
 namespace {

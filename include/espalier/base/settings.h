@@ -83,6 +83,8 @@ public:
     std::vector<std::string> keys() const;
     /// True if the value of `key` is a table.
     bool is_table(std::string_view key) const;
+    /// True if the value of `key` is a text, or a list that begins with one.
+    bool is_text(std::string_view key) const;
     /// The value as text whatever its type (for #define overrides).
     std::string value_text(std::string_view key) const;
 

@@ -13,8 +13,8 @@ namespace espalier::environment {
 
 class Communication;
 
-/// True if the model may write ?E or a query to a process that it declares.
-bool asks_processes(const Model& model);
+/// True if the model may write ?E, or declares a process without a default: something must answer.
+bool needs_processes(const Model& model);
 
 class Environment {
 public:
@@ -43,8 +43,11 @@ public:
         return processes_[process]->changing_settings();
     }
 
-    /// Throws UserError if `model` declares a process the scene lacks, or asks ?E where none is default.
+    /// Throws UserError if `model` declares a process that the scene lacks and that has no default, or asks ?E where
+    /// no process is the scene's default.
     void require_answers(const Model& model, const std::string& plant_name) const;
+    /// The processes of the model that the scene lacks: queries to them are answered the model's defaults.
+    std::vector<std::string> answered_by_default(const Model& model) const;
 
     /// One exchange: all queries of all plants in plant order then string order; every process in scene order advances
     /// once and answers its batch; answers go into the parameters of `strings[i]` (of plant i). Nothing else changes.
@@ -100,6 +103,7 @@ private:
     bool borrow(const WorldView& world);
     void make_room(const WorldView& world);
     void gather(const PlantView& plant, std::span<const Query> queries, int step);
+    void write_defaults(std::span<ModuleString*> strings) const;
     void name_processes(const PlantView& plant);
     std::optional<std::size_t> process_for(const Query& query, const PlantView& plant, int step) const;
     bool is_routed(const Query& query) const;
@@ -123,7 +127,14 @@ private:
     bool routed_ = false;
     bool keeps_unanswered_ = false;
     std::unique_ptr<Answering> answering_;
-    std::vector<Batch> batches_;                       ///< one per process
+    std::vector<Batch> batches_;  ///< one per process
+    /// What models say of a query that no process answers.
+    struct DefaultAnswer {
+        std::uint32_t plant;
+        std::size_t parameters_at;
+        std::span<const double> values;
+    };
+    std::vector<DefaultAnswer> defaults_;
     std::vector<std::optional<std::size_t>> by_name_;  ///< process of each name that `last_model_` declares
     const Model* last_model_ = nullptr;
 };

@@ -9,6 +9,7 @@
 #include "espalier/lsystem/resources.h"
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -92,6 +93,8 @@ struct Model {
     std::vector<LSystem> systems;  ///< the first is the main one
     std::vector<ModuleDeclaration> modules;
     std::vector<std::string> processes;  ///< names of `environment light, water;` in order
+    /// Of `environment light = 1;`: what the first parameters of a query are answered where there is no such process.
+    std::map<std::string, std::vector<double>> default_answers;
     /// Texts that stand among the parameters of modules, as in @L("%d", n); the parameter is an index into them.
     std::vector<std::string> texts;
     /// What side files provide; null if there are none.

@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "environment/exchange/answering.h"
 #include "environment/exchange/communication.h"
+#include "turtle/asking.h"
 
 #include <fmt/format.h>
 
@@ -67,6 +68,7 @@ void Environment::exchange(const WorldView& world, std::span<ModuleString*> stri
     for (std::size_t process = 0; process < processes_.size(); ++process) consult(process, world);
     // Only now: the queries' parameters point into these strings.
     for (const Batch& batch : batches_) write_answers(batch, strings);
+    write_defaults(strings);
     write_turtle_answers(world, strings);
     // Until the next exchange others need the room.
     if (world.waiting) {
@@ -82,6 +84,7 @@ void Environment::gather(const WorldView& world) {
         batch.queries = {};
         batch.parameters.clear();
     }
+    defaults_.clear();
     last_model_ = nullptr;
     if (world.waiting || !borrow(world)) {
         make_room(world);
@@ -158,7 +161,11 @@ void Environment::gather(const PlantView& plant, std::span<const Query> queries,
     name_processes(plant);
     for (const Query& asked : queries) {
         const std::optional<std::size_t> process = process_for(asked, plant, step);
-        if (!process) continue;
+        if (!process) {
+            const std::span<const double> answer = turtle::default_answer(*plant.model, asked);
+            if (!answer.empty()) defaults_.push_back({asked.plant, asked.parameters_at, answer});
+            continue;
+        }
         Query& query = batches_[*process].copies.emplace_back(asked);
         if (is_routed(query)) {
             query.parameters = query.parameters.subspan(1);
@@ -200,6 +207,13 @@ void Environment::write_answers(const Batch& batch, std::span<ModuleString*> str
     });
 }
 
+void Environment::write_defaults(std::span<ModuleString*> strings) const {
+    for (const DefaultAnswer& answer : defaults_) {
+        std::copy(answer.values.begin(), answer.values.end(),
+                  strings[answer.plant]->parameters.data() + answer.parameters_at);
+    }
+}
+
 std::optional<std::size_t> Environment::process_of(const Query& query, const PlantView& plant, int step) {
     name_processes(plant);
     return process_for(query, plant, step);
@@ -217,7 +231,7 @@ std::optional<std::size_t> Environment::process_for(const Query& query, const Pl
         return static_cast<std::size_t>(number);
     }
     const std::optional<std::size_t> process = unnamed ? default_ : by_name_[static_cast<std::size_t>(query.process)];
-    if (process || keeps_unanswered_) return process;
+    if (process || keeps_unanswered_ || !turtle::default_answer(*plant.model, query).empty()) return process;
     const std::string name = unnamed ? "E" : plant.model->processes[static_cast<std::size_t>(query.process)];
     throw UserError(fmt::format("plant {} (model {}) asks ?{}, and no process of the scene answers that", plant.plant,
                                 plant.model->name, name));

@@ -21,20 +21,15 @@ const Field* water_of_solute(const Settings& settings, const Fields& fields) {
     return settings.has("soil") ? &fields.need(settings.text("soil")) : nullptr;
 }
 
-std::vector<std::uint8_t> free_for_solutes(const SoluteParameters& parameters, const WaterGrid& grid,
-                                           const Fields& fields) {
-    WaterSolids solids(parameters.soil.water);
-    solids.look(fields);
-    return solids.free_voxels(grid);
-}
-
 class Nutrient final : public EnvironmentProcess, public SoilFollower {
 public:
     Nutrient(Settings& settings, const EnvironmentContext& context, Fields& fields)
         : water_(water_of_solute(settings, fields)),
           shared_(water_ ? dynamic_cast<SharedSoil*>(water_->source) : nullptr),
           parameters_(read_solute_parameters(settings, context, !shared_)),
-          days_(shared_ ? shared_->days_per_unit() : parameters_.soil.days) {
+          days_(shared_ ? shared_->days_per_unit() : parameters_.soil.days),
+          name_(context.name),
+          warnings_(context.warnings) {
         if (!shared_) make_layout(context, fields);
         solute_.emplace(layout(), parameters_, context.plants);
         if (shared_) {
@@ -52,6 +47,10 @@ public:
 
     void begin(const WorldView& world, const WaterBrick& contents) override {
         solute_->begin_step(world, days_, contents);
+        if (const auto& root = solute_->root_outside()) {
+            if (shared_) return shared_->warn_of_root_outside(root->plant, root->place);
+            warn_of_root_outside(warnings_, parameters_.soil, name_, root->plant, root->place);
+        }
     }
 
     void follow(const SoilMovement& movement, const WaterBrick& contents) override {
@@ -73,9 +72,13 @@ public:
             const WaterSample sample = sample_water(layout().grid(), layout().faces(),
                                                     solute_->transport().concentration, queries[q].pose.position);
             const glm::dvec3 gradient = 0.01 * sample.gradient;
-            const double all[] = {sample.content, gradient.x, gradient.y, gradient.z,
-                                  solute_->taken_in_step(queries[q].plant)};
-            std::copy_n(all, std::min<std::size_t>(5, answers[q].size()), answers[q].begin());
+            const double all[] = {sample.content,
+                                  gradient.x,
+                                  gradient.y,
+                                  gradient.z,
+                                  solute_->taken_in_step(queries[q].plant),
+                                  distance_to_wall(queries[q].pose.position)};
+            std::copy_n(all, std::min(std::size(all), answers[q].size()), answers[q].begin());
         }
         for (WaterField& field : shown_) field.change();
     }
@@ -84,7 +87,8 @@ public:
         const std::string& unit = parameters_.unit;
         const SoluteAccount& account = solute_->account();
         const SoluteFlown& flown = solute_->transport().flown();
-        return {{"uptake", solute_->taken_in_step(plant), unit},
+        const double days = solute_->days_in_step();
+        return {{"uptake", days > 0 ? solute_->taken_in_step(plant) / days : 0, unit + "/d"},
                 {"total", solute_->taken(plant), unit},
                 {"stored", account.stored, unit},
                 {"fertilised", account.fertilised, unit},
@@ -94,12 +98,13 @@ public:
                 {"inflow", flown.top, unit},
                 {"leached", flown.leached, unit},
                 {"rising", flown.bottom + flown.leached, unit},
+                {"sides", flown.sides, unit},
                 {"balance", solute_->balance_error()},
                 {"minimum", account.minimum, unit + "/cm3"},
                 {"maximum", account.maximum, unit + "/cm3"}};
     }
 
-    std::pair<int, int> query_arity() const override { return {1, 5}; }
+    std::pair<int, int> query_arity() const override { return {1, 6}; }
     Spreading spreading() const override { return Spreading::plants; }
 
     ProcessMemory memory() const override {
@@ -114,6 +119,11 @@ private:
 
     const SoilLayout& layout() const { return shared_ ? shared_->layout() : *own_layout_; }
 
+    double distance_to_wall(const glm::dvec3& point) const {
+        if (shared_) return shared_->distance_to_wall(point);
+        return own_solids_->distance_to_wall(point, layout().grid(), layout().joined_x(), layout().joined_z());
+    }
+
     void make_layout(const EnvironmentContext& context, const Fields& fields) {
         const WaterParameters& space = parameters_.soil.water;
         const double voxels = WaterGrid::voxels_needed(space.domain, space.voxel, space.flat);
@@ -123,7 +133,9 @@ private:
                                                    "smaller domain");
         }
         const WaterGrid grid(space.domain, space.voxel, space.flat);
-        own_layout_.emplace(grid, parameters_.soil, free_for_solutes(parameters_, grid, fields), fields);
+        own_solids_.emplace(space);
+        own_solids_->look(fields);
+        own_layout_.emplace(grid, parameters_.soil, own_solids_->free_voxels(grid), fields);
         movement_.resize(grid);
         contents_.assign(grid.cells(), parameters_.content);
         for (std::size_t c = 0; c < grid.cells(); ++c) {
@@ -158,6 +170,9 @@ private:
     SharedSoil* shared_;
     SoluteParameters parameters_;
     double days_;  ///< that a unit of the scene's time stands for
+    std::string name_;
+    std::vector<Diagnostic>* warnings_;  ///< null as soon as there was one
+    std::optional<WaterSolids> own_solids_;
     std::optional<SoilLayout> own_layout_;
     WaterBrick contents_;    ///< without a soil of its own to tell them
     SoilMovement movement_;  ///< the same

@@ -4,6 +4,7 @@
 
 #include "environment/roots/internode_water.h"
 #include "environment/roots/uptake.h"
+#include "environment/soil/heads.h"
 #include "environment/soil/sink.h"
 #include "environment/water/field.h"
 #include "environment/water/stock.h"
@@ -38,7 +39,7 @@ UptakeModel read_model(const Settings& settings) {
 FeddesHeads read_feddes(const Settings& settings, UptakeModel model) {
     FeddesHeads heads;
     if (model != UptakeModel::feddes || !settings.has("heads")) return heads;
-    const std::vector<double> given = settings.numbers("heads");
+    const std::vector<double> given = read_heads(settings, "heads", Range::between(-1e6, 1e4));
     if (given.size() != 4 || !std::is_sorted(given.rbegin(), given.rend(), std::less_equal<>())) {
         throw UserError(settings.place("heads"),
                         "'heads' are four falling pressure heads, cm: too wet, wet, dry, wilting");
@@ -46,7 +47,7 @@ FeddesHeads read_feddes(const Settings& settings, UptakeModel model) {
     return {given[0], given[1], given[2], given[3]};
 }
 
-/// Amounts of a plant, cm3, of the step and since the beginning.
+/// Amounts of a plant, cm3, in the step and since the beginning.
 struct Transpired {
     double in_step = 0, wanted_in_step = 0, total = 0;
     double taken = 0, taken_depth = 0;                        ///< from the soil in the step, and times the depth in cm
@@ -73,6 +74,8 @@ public:
           measure_(settings.choice_or("along", "age", {"age", "distance from tip"}) == "age"
                        ? RootMeasure::age
                        : RootMeasure::distance_from_tip),
+          along_place_(settings.place("along")),
+          warnings_(context.warnings),
           model_(read_model(settings)),
           collar_(RootCollar::read(settings)),
           feddes_(read_feddes(settings, model_)),
@@ -97,7 +100,9 @@ public:
         std::fill(lengths_.begin(), lengths_.end(), 0);
         for (const PlantView& plant : world.plants) {
             plants_.push_back(plant.plant);
-            roots_.emplace_back(cut_roots(plant, world, soil), soil);
+            PlantRoots roots = cut_roots(plant, world, soil);
+            if (roots.left_at) shared_.warn_of_root_outside(plant.plant, *roots.left_at);
+            roots_.emplace_back(std::move(roots), soil);
             roots_.back().add_lengths(lengths_);
         }
         for (PlantUptake& roots : roots_) roots.surround(lengths_, zone_ && model_ == UptakeModel::network);
@@ -105,6 +110,7 @@ public:
             plant.in_step = plant.wanted_in_step = plant.taken = plant.taken_depth = 0;
             plant.lowest = std::numeric_limits<double>::infinity();
         }
+        days_in_step_ = 0;
     }
 
     double longest_substep(double day) const override { return collar_.longest_span(day); }
@@ -133,6 +139,7 @@ public:
     }
 
     void accept(double days, double weight) override {
+        days_in_step_ += days;
         for (std::size_t i = 0; i < roots_.size(); ++i) {
             if (plants_[i] >= transpired_.size()) continue;
             Transpired& plant = transpired_[plants_[i]];
@@ -169,8 +176,12 @@ public:
         const PlantUptake* const roots = roots_of(plant);
         const bool any = roots && !roots->roots().pieces.empty();
         const double nothing = std::nan("");
-        return {{"transpiration", water.in_step, "cm3"},
-                {"potential", collar_.held ? nothing : water.wanted_in_step, "cm3"},
+        // The means of the step; before any time has passed, what flows at that moment.
+        const bool passed = days_in_step_ > 0;
+        const double now = roots ? roots->water().transpiration() : 0;
+        const double demand = passed ? water.wanted_in_step / days_in_step_ : mean_demand_;
+        return {{"transpiration", passed ? water.in_step / days_in_step_ : now, "cm3/d"},
+                {"demand", collar_.held ? nothing : demand, "cm3/d"},
                 {"total", water.total, "cm3"},
                 {"collar",
                  any && model_ != UptakeModel::feddes ? std::min(water.lowest, roots->water().collar) : nothing, "cm"},
@@ -190,7 +201,7 @@ public:
     Spreading spreading() const override { return Spreading::plants; }
 
     void save(std::ostream& out) const override {
-        const double common[] = {level_, last_demand_};
+        const double common[] = {level_, last_demand_, days_in_step_};
         write_doubles(out, common);
         for (const Transpired& plant : transpired_) {
             const double numbers[] = {plant.in_step, plant.wanted_in_step, plant.total,      plant.rate,
@@ -200,10 +211,11 @@ public:
     }
 
     void restore(std::istream& in) override {
-        double common[2];
+        double common[3];
         read_doubles(in, common);
         level_ = common[0];
         last_demand_ = common[1];
+        days_in_step_ = common[2];
         for (Transpired& plant : transpired_) {
             for (double* number : {&plant.in_step, &plant.wanted_in_step, &plant.total, &plant.rate, &plant.lowest,
                                    &plant.taken, &plant.taken_depth}) {
@@ -219,10 +231,21 @@ private:
         return at == plants_.end() ? nullptr : &roots_[static_cast<std::size_t>(at - plants_.begin())];
     }
 
-    PlantRoots cut_roots(const PlantView& plant, const WorldView& world, const SoilLayout& soil) const {
+    PlantRoots cut_roots(const PlantView& plant, const WorldView& world, const SoilLayout& soil) {
         if (!plant.interpretation || !plant.string) return {};
-        const SaidConductances said = SaidConductances::of(plant, name_);
+        const SaidOfRoots said = SaidOfRoots::of(plant, name_);
+        if (!said.ages.empty() && measure_ != RootMeasure::age) warn_of_ages(plant.plant);
         return roots_in_soil(plant, world, shared_.days_per_unit(), soil, orders_, measure_, said);
+    }
+
+    void warn_of_ages(std::uint32_t plant) {
+        if (!warnings_) return;
+        warnings_->push_back({Diagnostic::Severity::warning, along_place_,
+                              fmt::format("plant {} says the ages of its roots, but '{}' reads its curves along the "
+                                          "distance from the tip",
+                                          plant, name_),
+                              ""});
+        warnings_ = nullptr;
     }
 
     /// Each query is answered the water of the internode before it: potential in it, uptake, soil at its surface, share
@@ -261,12 +284,15 @@ private:
     WaterGrid grid_;
     std::vector<RootConductances> orders_;
     RootMeasure measure_;
+    Place along_place_;
+    std::vector<Diagnostic>* warnings_;  ///< null as soon as there was one
     UptakeModel model_;
     RootCollar collar_;
     FeddesHeads feddes_;
     bool zone_;
     double level_ = 0;                          ///< of the collar, in the last substep
     double mean_demand_ = 0, last_demand_ = 0;  ///< over this substep and the one before, cm3/d
+    double days_in_step_ = 0;                   ///< that have passed; none in the first step
     std::vector<std::uint32_t> plants_;         ///< of this step, and their roots
     std::vector<PlantUptake> roots_;
     std::vector<Transpired> transpired_;  ///< by plant
@@ -286,7 +312,7 @@ axial          cm3/d, conductance along a root times its length, for all orders:
 along          "age", or "distance from tip"; what curves are read along, in days or cm
 orders         []; tables { radial, axial } by the order of branching, the last of which stands for all higher orders
 collar         required; what happens at the collar: a head, or a demand
-    head       pressure head at the collar, cm, or { file = "weather.csv", column = "..." }
+    head       pressure head at the collar, at most 0 cm, or { file = "weather.csv", column = "...", unit = "MPa" }
     transpiration  demand of each plant as long as the collar is above `limit`, cm3/d, or a column of a file
     limit      lowest pressure head of the collar, by default -15000 cm
     by_day     true: the demand lasts from 6 to 18 o'clock, as a sine with the same mean over a day
@@ -295,17 +321,22 @@ model          "network", or "feddes", "couvreur"; feddes: the demand is shared 
                dry or full; couvreur: by the fractions of a uniform soil, with compensation
 heads          [-10, -25, -800, -16000] cm; for feddes, between which the uptake rises to its full rate, and falls
 
+Pressure heads are numbers of cm, or texts with a unit, as "-1.5 MPa" (see soil-water). What becomes of roots that leave the soil
+says `outside` of the soil-water.
+
 ?name(a)                 -> pressure head in the internode before the query, cm
 ?name(a, b, c, d)        -> ..., uptake (cm3/d), pressure head of the soil at its surface (cm), fraction of the uptake from
                          uniform soil
+?name(a, b, c, d, t)     also says the age of the internode before the query, t days, along which curves are read; without it
+                         an age is the time since the step of its birth
 ?name(a, b, c, d, kr, kx)  also says the conductances of the internode before the query: kr (1/d) and kx (cm3/d) count for it
                          instead of radial and axial
 
-Fields: `name`, uptake (1/d); `name.length_density` (cm/cm3). Statistics of each plant: transpiration and potential (cm3, in the
-step), total (cm3), collar (cm, the lowest in the step), depth of the uptake (cm), conductance of the root system (Krs, cm2/d), suf_depth (mean depth
-of the uptake from uniform soil, cm).
+Fields: `name`, uptake (1/d); `name.length_density` (cm/cm3). Statistics of each plant: transpiration and demand (cm3/d, the
+means of the step), total (cm3), collar (pressure head, cm, the lowest in the step), depth of the uptake (cm), conductance of the root system (Krs,
+cm2/d), suf_depth (mean depth of the uptake from uniform soil, cm).
 
-Organs: potential and soil, the pressure heads in each internode and in the soil at its surface (cm), uptake (cm3/d), fraction of the
+Organs: head and soil, the pressure heads in each internode and in the soil at its surface (cm), uptake (cm3/d), fraction of the
 uptake from uniform soil, radial (1/d) and axial (cm3/d).)";
 
 const Registered<ProcessType> entry{{"root-water",

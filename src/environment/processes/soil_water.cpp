@@ -187,8 +187,8 @@ private:
 };
 
 std::unique_ptr<EnvironmentProcess> make_soil(Settings& settings, const EnvironmentContext& context, Fields& fields) {
-    const std::string model = settings.choice_or("model", "linear", {"linear", "richards"});
-    if (model == "richards") return make_richards_soil(settings, context, fields);
+    const std::string model = settings.choice_or("model", "linear", {"linear", "richards", "still"});
+    if (model != "linear") return make_richards_soil(settings, context, fields, model == "still");
     return std::make_unique<SoilWater>(settings, context, fields);
 }
 

@@ -2,6 +2,8 @@
 
 #include "espalier/base/math.h"
 
+#include "environment/soil/heads.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,11 +31,12 @@ RootCollar RootCollar::read(const Settings& settings) {
         throw UserError(settings.place("collar"), "'collar' needs one of 'head' (cm) and 'transpiration' (cm3/d)");
     }
     if (collar.held) {
-        collar.head = SoilSeries::read(table, "head", 0, Range::between(-1e6, 1e4));
+        // Above 0, the plant would press water into the soil.
+        collar.head = SoilSeries::read_head(table, "head", Range::between(-1e6, 0));
         return collar;
     }
     collar.demand = SoilSeries::read(table, "transpiration", 0, Range::between(0, 1e9));
-    collar.limit = table.number_or("limit", -15000, Range::between(-1e6, -1));
+    collar.limit = read_head_or(table, "limit", -15000, Range::between(-1e6, -1));
     collar.by_day = table.flag_or("by_day", false);
     return collar;
 }

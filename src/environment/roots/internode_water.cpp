@@ -18,7 +18,7 @@ const std::vector<RootQuantity>& known() {
         return [column](const PlantUptake& plant, std::size_t piece) { return (plant.water().*column)[piece]; };
     };
     static const std::vector<RootQuantity> all{
-        {{"potential", "cm", "pressure head in the root"}, false, water(&PlantWater::xylem)},
+        {{"head", "cm", "pressure head in the root"}, false, water(&PlantWater::xylem)},
         {{"uptake", "cm3/d", "water that the root takes from the soil"}, true, water(&PlantWater::uptake)},
         {{"soil", "cm", "pressure head of the soil at the root's surface"}, false, water(&PlantWater::surface)},
         {{"fraction", "", "of the uptake from uniform soil (SUF)"}, true, water(&PlantWater::fractions)},

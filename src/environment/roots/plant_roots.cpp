@@ -29,7 +29,10 @@ std::vector<double> cuts(const Internode& internode, const WaterGrid& grid) {
     return parts;
 }
 
-std::size_t cell_at(glm::dvec3 point, const SoilLayout& soil, std::uint32_t plant) {
+constexpr std::size_t outside_soil = PlantRoots::no_cell - 1;
+
+/// The cell of a point, `no_cell` above the surface and in a stone, or `outside_soil`.
+std::size_t cell_at(glm::dvec3 point, const SoilLayout& soil) {
     const WaterGrid& grid = soil.grid();
     glm::dvec3 at = (point - grid.lower()) / grid.voxel();
     const glm::dvec3 size(grid.size());
@@ -38,12 +41,7 @@ std::size_t cell_at(glm::dvec3 point, const SoilLayout& soil, std::uint32_t plan
     if (soil.joined_x()) at.x -= size.x * std::floor(at.x / size.x);
     if (soil.joined_z()) at.z -= size.z * std::floor(at.z / size.z);
     const glm::ivec3 voxel(glm::floor(at));
-    if (!grid.has(voxel)) {
-        throw RunError(
-            fmt::format("a root of plant {} leaves the soil at ({:.3g}, {:.3g}, {:.3g}): make the soil's domain "
-                        "larger, or its sides periodic",
-                        plant, point.x, point.y, point.z));
-    }
+    if (!grid.has(voxel)) return outside_soil;
     return soil.free(grid.cell(voxel)) ? grid.cell(voxel) : PlantRoots::no_cell;
 }
 
@@ -64,7 +62,7 @@ std::vector<double> distances_from_tips(const Column<Internode>& internodes) {
 class Cutting {
 public:
     Cutting(const PlantView& plant, const WorldView& world, double days, const SoilLayout& soil,
-            const std::vector<RootConductances>& orders, RootMeasure measure, const SaidConductances& said)
+            const std::vector<RootConductances>& orders, RootMeasure measure, const SaidOfRoots& said)
         : plant_(plant),
           internodes_(plant.interpretation->geometry.internodes),
           world_(world),
@@ -73,7 +71,8 @@ public:
           orders_(orders),
           said_(said),
           top_(soil.grid().upper().y),
-          last_piece_(internodes_.size(), RootPiece::collar) {
+          last_piece_(internodes_.size(), RootPiece::collar),
+          has_ended_(internodes_.size(), false) {
         if (measure == RootMeasure::distance_from_tip) distances_ = distances_from_tips(internodes_);
     }
 
@@ -83,6 +82,8 @@ public:
         for (std::uint32_t i = 0; i < internodes_.size(); ++i) {
             const std::uint32_t bearer = bearers[i];
             last_piece_[i] = bearer < internodes_.size() ? last_piece_[bearer] : RootPiece::collar;
+            has_ended_[i] = bearer < internodes_.size() && has_ended_[bearer];
+            if (has_ended_[i]) continue;
             if (0.5 * (internodes_[i].base.y + internodes_[i].tip.y) < top_) add(i);
         }
         return std::move(roots_);
@@ -91,6 +92,7 @@ public:
 private:
     double measure_of(std::uint32_t i) const {
         if (!distances_.empty()) return distances_[i];
+        if (!said_.ages.empty() && said_.ages[i] >= 0) return said_.ages[i];
         const ModuleString& string = *plant_.string;
         if (!string.has_lineage()) return 0;
         const int born = static_cast<int>(string.step_of_birth(internodes_[i].module));
@@ -111,8 +113,13 @@ private:
             const double share = parts[k + 1] - parts[k];
             if (!(share > 1e-9)) continue;
             const glm::dvec3 middle = glm::mix(internode.base, internode.tip, 0.5 * (parts[k] + parts[k + 1]));
+            std::size_t cell = cell_at(middle, soil_);
+            if (cell == outside_soil) {
+                leave(i, middle);
+                if (has_ended_[i]) return;
+                cell = PlantRoots::no_cell;
+            }
             if (roots_.pieces.empty()) roots_.collar_height = 100 * std::min(internode.base.y, top_);
-            const std::size_t cell = cell_at(middle, soil_, plant_.plant);
             roots_.cells.push_back(cell);
             roots_.radii.push_back(radius);
             roots_.depths.push_back(100 * (top_ - middle.y));
@@ -124,15 +131,28 @@ private:
         }
     }
 
+    /// The internode goes on outside the soil.
+    void leave(std::uint32_t i, const glm::dvec3& point) {
+        if (soil_.outside() == OutsideSoil::error) {
+            throw RunError(
+                fmt::format("a root of plant {} leaves the soil at ({:.3g}, {:.3g}, {:.3g}): make the soil's domain "
+                            "larger, its sides periodic, or say outside = \"stop growing\"",
+                            plant_.plant, point.x, point.y, point.z));
+        }
+        if (!roots_.left_at) roots_.left_at = point;
+        has_ended_[i] = soil_.outside() == OutsideSoil::root_ends;
+    }
+
     const PlantView& plant_;
     const Column<Internode>& internodes_;
     const WorldView& world_;
     double days_;
     const SoilLayout& soil_;
     const std::vector<RootConductances>& orders_;
-    const SaidConductances& said_;
+    const SaidOfRoots& said_;
     double top_;
     std::vector<std::uint32_t> last_piece_;  ///< of each internode, or of what bears it
+    std::vector<bool> has_ended_;            ///< an internode, or what bears it, outside the soil
     std::vector<double> distances_;
     PlantRoots roots_;
 };
@@ -140,8 +160,7 @@ private:
 }  // namespace
 
 PlantRoots roots_in_soil(const PlantView& plant, const WorldView& world, double days, const SoilLayout& soil,
-                         const std::vector<RootConductances>& orders, RootMeasure measure,
-                         const SaidConductances& said) {
+                         const std::vector<RootConductances>& orders, RootMeasure measure, const SaidOfRoots& said) {
     return Cutting(plant, world, days, soil, orders, measure, said).cut();
 }
 

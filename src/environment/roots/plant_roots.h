@@ -5,9 +5,10 @@
 
 #include "environment/roots/conductances.h"
 #include "environment/roots/hydraulic_tree.h"
-#include "environment/roots/said_conductances.h"
+#include "environment/roots/said_of_roots.h"
 #include "environment/soil/cells.h"
 
+#include <optional>
 #include <vector>
 
 namespace espalier::environment {
@@ -24,14 +25,17 @@ struct PlantRoots {
     std::vector<std::uint32_t> modules;     ///< of each piece, in the plant's string
     std::size_t modules_in_string = 0;
     double collar_height = 0;  ///< cm, as heights of total heads
+    std::optional<glm::dvec3>
+        left_at;  ///< the first place, in the order of the string, where a root is outside the soil
 
     static constexpr std::size_t no_cell = std::size_t(-1);
 };
 
-/// Cuts the internodes below the soil's surface at the faces of voxels. Throws RunError for a root that leaves the soil
-/// elsewhere. `days`: what a unit of time is. What a model says of an internode counts instead of `orders`.
+/// Cuts the internodes below the soil's surface at the faces of voxels. A root that leaves the soil through a side or
+/// the floor does what the soil says of it (OutsideSoil); where that is an error, throws RunError. `days`: what a unit
+/// of time is. What a model says of an internode counts instead of `orders` and of the steps since its birth.
 PlantRoots roots_in_soil(const PlantView& plant, const WorldView& world, double days, const SoilLayout& soil,
                          const std::vector<RootConductances>& orders, RootMeasure measure,
-                         const SaidConductances& said = {});
+                         const SaidOfRoots& said = {});
 
 }  // namespace espalier::environment

@@ -35,6 +35,7 @@ public:
     bool free(std::size_t cell) const { return faces_.free(cell); }
     const SoilHydraulics& kind(std::size_t cell) const { return kinds_[kind_of_[cell]]; }
     std::uint8_t kind_number(std::size_t cell) const { return kind_of_[cell]; }
+    OutsideSoil outside() const { return parameters_.outside; }
     bool joined_x() const { return joined_x_; }
     bool joined_z() const { return joined_z_; }
     NeighbourRows neighbours(std::size_t row) const;

@@ -19,8 +19,9 @@ struct SoilMovement {
     WaterBrick uptake;               ///< by roots, content per day
     std::vector<double> floor;       ///< upwards through the lowest faces, cm/d, per column
     std::vector<double> surface;     ///< downwards into the soil, cm/d, per column
+    WaterBrick sides;                ///< into voxels at sides of given heads, cm/d; empty where there are none
 
-    void resize(const WaterGrid& grid);
+    void resize(const WaterGrid& grid, bool has_side_heads = false);
     void save(std::ostream& out) const;
     void restore(std::istream& in);
 };

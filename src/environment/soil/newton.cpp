@@ -46,6 +46,7 @@ double Richards::evaluate(double days, double weight, std::span<SoilSink* const>
     layout_.for_rows([&](std::size_t row) {
         find_fluxes(row);
         find_boundary_fluxes(row, days);
+        if (has_side_heads_) find_side_fluxes(row);
     });
     layout_.for_rows([&](std::size_t row) {
         for (WaterBrick* brick : {&fluxes_[0].flux, &fluxes_[0].by_own, &fluxes_[0].by_next}) {
@@ -142,6 +143,55 @@ void Richards::find_boundary_fluxes(std::size_t row, double days) {
     }
 }
 
+/// Half a voxel from a face whose head is given.
+void Richards::find_side_fluxes(std::size_t row) {
+    const glm::ivec3 size = grid_.size();
+    const int y = grid_.y_of(row), z = grid_.z_of(row);
+    const double height = grid_.centre({0, y, 0}).y;
+    const auto set = [&](std::size_t side, std::size_t face, std::size_t cell) {
+        if (sides_[side].empty()) return;
+        SoilFlux& into = sides_[side][face];
+        into = {};
+        if (!layout_.free(cell)) return;
+        const bool is_table = parameters_.sides[side].kind == SoilSide::Kind::table;
+        const double given = forcing_.sides[side], head = is_table ? 100 * (given - height) : given;
+        into = flux_across(layout_.kind(cell).at(head), points_[cell], 0.5 * edge_);
+    };
+    const std::size_t begin = grid_.row_begin(row), end = begin + size.x - 1;
+    set(0, row, begin);
+    set(1, row, end);
+    for (int x = 0; x < size.x; ++x) {
+        const std::size_t face = std::size_t(y) * size.x + x;
+        if (z == 0) set(2, face, begin + x);
+        if (z == size.z - 1) set(3, face, begin + x);
+    }
+}
+
+SoilFlux Richards::through_sides(std::size_t cell) const {
+    const glm::ivec3 at = grid_.voxel_of(cell), size = grid_.size();
+    const std::size_t row = cell / grid_.stride(), face = std::size_t(at.y) * size.x + at.x;
+    SoilFlux sum;
+    const auto add = [&](std::size_t side, bool is_there, std::size_t index) {
+        if (!is_there || sides_[side].empty()) return;
+        sum.flux += sides_[side][index].flux;
+        sum.by_second += sides_[side][index].by_second;
+    };
+    add(0, at.x == 0, row);
+    add(1, at.x == size.x - 1, row);
+    add(2, at.z == 0, face);
+    add(3, at.z == size.z - 1, face);
+    return sum;
+}
+
+/// 0 for a voxel that does not lie at the side.
+double Richards::side_flux(std::size_t side, const glm::ivec3& voxel) const {
+    if (sides_[side].empty()) return 0;
+    const int axis = side < 2 ? 0 : 2, place = side % 2 == 0 ? 0 : grid_.size()[axis] - 1;
+    if (voxel[axis] != place) return 0;
+    const std::size_t row = std::size_t(voxel.z) * grid_.size().y + voxel.y;
+    return sides_[side][side < 2 ? row : std::size_t(voxel.y) * grid_.size().x + voxel.x].flux;
+}
+
 Richards::Outflow Richards::outflow(const NeighbourRows& at, int x, std::size_t column) const {
     const std::size_t c = at.own + x, below = at.below + x, back = at.back + x;
     const auto& [fx, fy, fz] = fluxes_;
@@ -167,6 +217,11 @@ Richards::Outflow Richards::outflow(const NeighbourRows& at, int x, std::size_t 
     if (back != c) {
         out.flux -= fz.flux[back];
         out.by_head -= fz.by_next[back];
+    }
+    if (has_side_heads_) {
+        const SoilFlux into = through_sides(c);
+        out.flux -= into.flux;
+        out.by_head -= into.by_second;
     }
     return out;
 }

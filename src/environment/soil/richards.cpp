@@ -13,12 +13,14 @@ namespace espalier::environment {
 namespace {
 
 constexpr double shortest_substep = 1e-9, first_substep = 1e-5;  ///< days
+constexpr double driest_head = -1e6;                             ///< cm, that a soil may begin with
 
 }  // namespace
 
 double SoilBalance::relative_error() const {
     const SoilRates& f = flown;
-    const double missing = start + f.rain + f.top + f.bottom + f.added - f.evaporation - f.runoff - f.drunk - stored;
+    const double missing =
+        start + f.rain + f.top + f.bottom + f.sides + f.added - f.evaporation - f.runoff - f.drunk - stored;
     double largest = std::max(start, stored);
     for (const double SoilRates::*amount : SoilRates::all) largest = std::max(largest, std::abs(f.*amount));
     return largest > 0 ? missing / largest : 0;
@@ -42,31 +44,39 @@ Richards::Richards(const SoilLayout& layout, const SoilParameters& parameters)
     floor_.resize(columns);
     surface_.resize(columns);
     ponding_.assign(columns, 0.0);
+    for (std::size_t side = 0; side < sides_.size(); ++side) {
+        if (parameters.sides[side].kind == SoilSide::Kind::closed) continue;
+        has_side_heads_ = true;
+        sides_[side].resize(side < 2 ? grid_.rows() : std::size_t(grid_.size().x) * grid_.size().y);
+    }
     next_substep_ = first_substep;
     begin();
 }
 
+double Richards::first_head(std::size_t cell, const SoilBeginning& beginning, double height) const {
+    const double value = beginning.at(height);
+    if (beginning.kind != SoilBeginning::Kind::content) return value;
+    const SoilHydraulics& soil = layout_.kind(cell);
+    const double least = soil.at(driest_head).content, most = soil.soil().saturated;
+    if (value >= least && value <= most) return soil.head_at(value);
+    throw UserError(
+        beginning.place,
+        fmt::format("the soil at y = {:g}, {}, cannot hold a content of {:g}: it holds {:.4g} when full, and {:.4g} at "
+                    "{:g} cm",
+                    height, parameters_.kind_names[layout_.kind_number(cell)], value, most, least, driest_head));
+}
+
 void Richards::begin() {
-    layout_.for_rows([&](std::size_t row) {
+    for (std::size_t row = 0; row < grid_.rows(); ++row) {
         for (int x = 0; x < grid_.size().x; ++x) {
             const std::size_t cell = grid_.row_begin(row) + x;
             if (!layout_.free(cell)) continue;
             const glm::dvec3 centre = grid_.centre({x, grid_.y_of(row), grid_.z_of(row)});
-            const SoilBeginning& beginning = layout_.beginning(centre);
-            const SoilHydraulics& soil = layout_.kind(cell);
-            switch (beginning.kind) {
-                case SoilBeginning::Kind::head:
-                    head_[cell] = beginning.value;
-                    break;
-                case SoilBeginning::Kind::table:
-                    head_[cell] = 100 * (beginning.value - centre.y);
-                    break;
-                case SoilBeginning::Kind::content:
-                    head_[cell] = std::max(soil.head_at(beginning.value), -1e6);
-            }
-            content_[cell] = soil.at(head_[cell]).content;
+            head_[cell] = first_head(cell, layout_.beginning(centre), centre.y);
+            content_[cell] = layout_.kind(cell).at(head_[cell]).content;
         }
-    });
+    }
+    set_measured_heads(0);
     for (const SoilInflow& inflow : parameters_.inflows) {
         std::size_t found = 0;
         for (std::size_t row = 0; row < grid_.rows(); ++row) {
@@ -84,11 +94,11 @@ void Richards::begin() {
     balance_.start = balance_.stored;
     trial_ = head_;
     find_points();
-    layout_.for_rows([&](std::size_t row) { find_fluxes(row); });
+    if (!parameters_.is_still) layout_.for_rows([&](std::size_t row) { find_fluxes(row); });
 }
 
 void Richards::attach(SoilFollower& follower) {
-    if (followers_.empty()) movement_.resize(grid_);
+    if (followers_.empty()) movement_.resize(grid_, has_side_heads_);
     followers_.push_back(&follower);
 }
 
@@ -98,8 +108,12 @@ double Richards::flux(std::size_t cell, int axis) const {
     const NeighbourRows at = layout_.neighbours(row);
     const std::size_t x = cell - at.own;
     const WaterBrick& flux = fluxes_[axis].flux;
-    if (axis == 0) return 0.5 * (flux[cell] + flux[cell - 1]);
-    if (axis == 2) return 0.5 * (flux[cell] + (at.back != at.own ? flux[at.back + x] : 0));
+    const glm::ivec3 voxel = grid_.voxel_of(cell);
+    if (axis == 0) return 0.5 * (flux[cell] + flux[cell - 1] + side_flux(0, voxel) - side_flux(1, voxel));
+    if (axis == 2) {
+        const double back = at.back != at.own ? flux[at.back + x] : 0;
+        return 0.5 * (flux[cell] + back + side_flux(2, voxel) - side_flux(3, voxel));
+    }
     const std::size_t column = std::size_t(grid_.z_of(row)) * grid_.size().x + x;
     const double below = at.below != at.own ? flux[at.below + x] : floor_[column].flux;
     const double above = at.has_above ? flux[cell] : -surface_[column].into.flux;
@@ -125,6 +139,10 @@ double Richards::longest_substep(double end, std::span<SoilSink* const> sinks) c
                                      &parameters_.floor.flux, &parameters_.floor.head}) {
         longest = std::min(longest, series->next_change(day_) - day_);
     }
+    for (const SoilSide& side : parameters_.sides) longest = std::min(longest, side.value.next_change(day_) - day_);
+    for (const SoilSeries& head : parameters_.measured.heads) {
+        longest = std::min(longest, head.next_change(day_) - day_);
+    }
     for (const SoilSink* sink : sinks) longest = std::min(longest, sink->longest_substep(day_));
     return longest;
 }
@@ -136,6 +154,7 @@ void Richards::show_to(std::span<SoilSink* const> sinks) {
 }
 
 void Richards::advance(double days, std::span<SoilSink* const> sinks) {
+    if (parameters_.is_still) return stand_still(days, sinks);
     const double end = day_ + days;
     while (end - day_ > 1e-12 * (1 + std::abs(end))) {
         end_if_asked();
@@ -161,13 +180,16 @@ void Richards::advance(double days, std::span<SoilSink* const> sinks) {
 Richards::Outcome Richards::substep(double days, std::span<SoilSink* const> sinks, double& error) {
     const SoilSurface& surface = parameters_.surface;
     const double middle = day_ + 0.5 * days;
-    const SoilForcing now{
+    SoilForcing now{
         {0.1 * surface.rain.at(middle), 0.1 * surface.evaporation.at(middle), surface.dry_limit, 0.1 * surface.ponding},
         0.1 * surface.flux.at(middle),
         surface.head.at(middle),
         0.1 * parameters_.floor.flux.at(middle),
         parameters_.floor.table ? 100 * (*parameters_.floor.table - grid_.lower().y)
                                 : parameters_.floor.head.at(middle)};
+    for (std::size_t side = 0; side < sides_.size(); ++side) {
+        if (!sides_[side].empty()) now.sides[side] = parameters_.sides[side].value.at(middle);
+    }
     if (!(now == forcing_)) smooth_ = false;
     for (SoilSink* sink : sinks) {
         if (sink->has_jumped(day_)) smooth_ = false;
@@ -243,6 +265,9 @@ void Richards::account(double days, double weight) {
             now.added += inflow_[c] * edge_;
         }
     }
+    for (const std::vector<SoilFlux>& side : sides_) {
+        for (const SoilFlux& flux : side) now.sides += flux.flux;
+    }
     const bool atmosphere = parameters_.surface.kind == SoilSurface::Kind::atmosphere;
     bool ponded = false;
     for (std::size_t column = 0; column < ponding_.size(); ++column) {
@@ -277,6 +302,7 @@ void Richards::record_movement(double days, double weight) {
         for (std::size_t c = begin; c < begin + grid_.size().x; ++c) {
             for (int axis = 0; axis < 3; ++axis) bring_on(movement_.flux[axis][c], fluxes_[axis].flux[c], weight);
             bring_on(movement_.uptake[c], uptake_[c], weight);
+            if (has_side_heads_) bring_on(movement_.sides[c], through_sides(c).flux, weight);
         }
     });
     for (std::size_t column = 0; column < floor_.size(); ++column) {

@@ -19,12 +19,13 @@ struct SoilRates {
     double rain = 0, evaporation = 0, runoff = 0;
     double top = 0;     ///< into the soil through a surface of given flux or head
     double bottom = 0;  ///< net, into the soil; what drains is negative
+    double sides = 0;   ///< net, into the soil through sides of given heads
     double added = 0;   ///< by sources
     double drunk = 0;   ///< by queries and roots
 
-    static constexpr double SoilRates::*all[] = {&SoilRates::rain, &SoilRates::evaporation, &SoilRates::runoff,
-                                                 &SoilRates::top,  &SoilRates::bottom,      &SoilRates::added,
-                                                 &SoilRates::drunk};
+    static constexpr double SoilRates::*all[] = {&SoilRates::rain,  &SoilRates::evaporation, &SoilRates::runoff,
+                                                 &SoilRates::top,   &SoilRates::bottom,      &SoilRates::sides,
+                                                 &SoilRates::added, &SoilRates::drunk};
 };
 
 struct SoilBalance {
@@ -39,6 +40,7 @@ struct SoilBalance {
 struct SoilForcing {
     SurfaceWeather weather;
     double surface_flux = 0, surface_head = 0, floor_flux = 0, floor_head = 0;
+    std::array<double, 4> sides{};  ///< cm, or m of a water table, by SoilParameters::sides
 
     friend bool operator==(const SoilForcing&, const SoilForcing&) = default;
 };
@@ -82,6 +84,9 @@ private:
     };
 
     void begin();
+    double first_head(std::size_t cell, const SoilBeginning& beginning, double height) const;
+    void set_measured_heads(double day);
+    void stand_still(double days, std::span<SoilSink* const> sinks);
     void measure();
     Outcome substep(double days, std::span<SoilSink* const> sinks, double& error);
     bool newton(double days, double weight, std::span<SoilSink* const> sinks);
@@ -95,6 +100,10 @@ private:
     /// What leaves a voxel through its faces, and how that changes with its head. `column`: of the first of its row.
     Outflow outflow(const NeighbourRows& at, int x, std::size_t column) const;
     SoilFlux floor_flux(std::size_t cell) const;
+    void find_side_fluxes(std::size_t row);
+    /// Into a voxel through the sides, by_second: with its own head.
+    SoilFlux through_sides(std::size_t cell) const;
+    double side_flux(std::size_t side, const glm::ivec3& voxel) const;
     void update(double part);
     double updated_head(std::size_t cell, double change) const;
     double error_of(double days) const;
@@ -116,6 +125,8 @@ private:
     std::array<FaceFluxes, 3> fluxes_;
     std::vector<SoilFlux> floor_;           ///< upwards through the lowest faces, per column
     std::vector<SurfaceExchange> surface_;  ///< per column
+    /// Into the soil through the faces of each side, by_second: with the voxel's head; empty without a given head.
+    std::array<std::vector<SoilFlux>, 4> sides_;
     WaterBrick uptake_, uptake_by_head_, inflow_, residual_, change_, before_, start_;
     std::vector<double> row_norm_, row_sum_;
     SoilLinearSystem system_;
@@ -130,6 +141,7 @@ private:
     double last_days_ = 0;  ///< its length
     bool has_rate_ = false, smooth_ = false;
     std::size_t substeps_ = 0;
+    bool has_side_heads_ = false;
 };
 
 }  // namespace espalier::environment

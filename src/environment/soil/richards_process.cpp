@@ -43,12 +43,14 @@ WaterGrid layer_on(const WaterGrid& soil) {
 
 class RichardsSoil final : public EnvironmentProcess, public SharedSoil {
 public:
-    RichardsSoil(Settings& settings, const EnvironmentContext& context, Fields& fields)
-        : parameters_(read_soil_parameters(settings, context)),
+    RichardsSoil(Settings& settings, const EnvironmentContext& context, Fields& fields, bool is_still)
+        : parameters_(read_soil_parameters(settings, context, is_still)),
           grid_(affordable_soil(parameters_, context)),
           solids_(parameters_.water),
           layout_((solids_.look(fields), SoilLayout(grid_, parameters_, solids_.free_voxels(grid_), fields))),
           soil_(layout_, parameters_),
+          name_(context.name),
+          warnings_(context.warnings),
           uptake_(context.plants, 0),
           wish_(context.plants, 0) {
         provide(context.name, fields);
@@ -69,7 +71,13 @@ public:
     }
 
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
-        const WaterSenses senses{grid_, layout_.faces(), solids_, parameters_.water, soil_.contents()};
+        const WaterSenses senses{grid_,
+                                 layout_.faces(),
+                                 solids_,
+                                 parameters_.water,
+                                 soil_.contents(),
+                                 layout_.joined_x(),
+                                 layout_.joined_z()};
         const std::vector<WaterWish> wishes = sense_water(senses, queries, answers);
         answer_heads(queries, answers);
         const std::vector<double> obtained = parameters_.water.depletion ? soil_.share(wishes) : soil_.lend(wishes);
@@ -115,6 +123,7 @@ public:
                 {"evaporation", balance.flown.evaporation * mm, "mm"},
                 {"runoff", balance.flown.runoff * mm, "mm"},
                 {"infiltration", balance.flown.top * mm, "mm"},
+                {"sides", balance.flown.sides * mm, "mm"},
                 {"drainage", -balance.flown.bottom * mm, "mm"},
                 {"added", balance.flown.added * mm, "mm"},
                 {"drunk", balance.flown.drunk * mm, "mm"},
@@ -130,6 +139,12 @@ public:
     const WaterBrick& contents() const override { return soil_.contents(); }
     const SoilLayout& layout() const override { return layout_; }
     double days_per_unit() const override { return parameters_.days; }
+    double distance_to_wall(const glm::dvec3& point) const override {
+        return solids_.distance_to_wall(point, grid_, layout_.joined_x(), layout_.joined_z());
+    }
+    void warn_of_root_outside(std::uint32_t plant, const glm::dvec3& point) override {
+        environment::warn_of_root_outside(warnings_, parameters_, name_, plant, point);
+    }
 
     std::pair<int, int> query_arity() const override { return {1, 100}; }
     Spreading spreading() const override { return Spreading::queries; }
@@ -162,6 +177,7 @@ private:
         show("", "m3/m3", "water content of the soil", [this]() -> const WaterBrick& { return soil_.contents(); });
         show(".head", "cm", "pressure head of the soil's water",
              [this]() -> const WaterBrick& { return soil_.heads(); });
+        if (parameters_.is_still) return;
         static const char* const axes[] = {".flux_x", ".flux_y", ".flux_z"};
         for (int axis = 0; axis < (grid_.flat() ? 2 : 3); ++axis) {
             show(axes[axis], "cm/d", "water that flows along the axis",
@@ -209,6 +225,8 @@ private:
     WaterSolids solids_;
     SoilLayout layout_;
     Richards soil_;
+    std::string name_;
+    std::vector<Diagnostic>* warnings_;  ///< null as soon as there was one
     std::vector<SoilSink*> sinks_;
     std::vector<SoilFollower*> followers_;
     std::vector<WaterField> shown_;
@@ -219,8 +237,8 @@ private:
 }  // namespace
 
 std::unique_ptr<EnvironmentProcess> make_richards_soil(Settings& settings, const EnvironmentContext& context,
-                                                       Fields& fields) {
-    return std::make_unique<RichardsSoil>(settings, context, fields);
+                                                       Fields& fields, bool is_still) {
+    return std::make_unique<RichardsSoil>(settings, context, fields, is_still);
 }
 
 }  // namespace espalier::environment

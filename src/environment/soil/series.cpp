@@ -2,6 +2,7 @@
 
 #include "base/csv_rows.h"
 #include "base/text.h"
+#include "environment/soil/heads.h"
 
 #include <fmt/format.h>
 
@@ -11,13 +12,14 @@
 namespace espalier::environment {
 namespace {
 
-/// A cell as a finite number in the range.
-double number_in(const CsvRow& row, std::size_t column, const std::string& what, const Place& place,
-                 const Range& range) {
+/// A cell as a finite number, which is in the range when it is converted.
+double number_in(const CsvRow& row, std::size_t column, const std::string& what, const Place& place, const Range& range,
+                 const std::function<double(double)>& convert) {
     const std::string text = column < row.cells.size() ? row.cells[column] : "";
     if (text.empty()) throw UserError(place, fmt::format("there is no '{}' in this line: a series has no gaps", what));
-    const std::optional<double> value = row.number(column);
+    std::optional<double> value = row.number(column);
     if (!value) throw UserError(place, fmt::format("'{}' is not a number", text));
+    if (convert) value = convert(*value);
     if (*value < range.lowest || *value > range.highest) {
         throw UserError(place, fmt::format("'{}' is {}, which is not between {} and {}", what, text,
                                            format_general(range.lowest), format_general(range.highest)));
@@ -29,9 +31,22 @@ double number_in(const CsvRow& row, std::size_t column, const std::string& what,
 
 SoilSeries SoilSeries::read(const Settings& settings, const std::string& key, double fallback, Range range) {
     if (!settings.is_table(key)) return SoilSeries(settings.number_or(key, fallback, range));
+    return read_file(settings.table(key), settings.table(key).text("column"), range, {});
+}
+
+SoilSeries SoilSeries::read_head(const Settings& settings, const std::string& key, Range range) {
+    if (!settings.is_table(key)) return SoilSeries(environment::read_head(settings, key, range));
     const Settings table = settings.table(key);
+    return read_head_column(table, table.text("column"), range);
+}
+
+SoilSeries SoilSeries::read_head_column(const Settings& table, const std::string& column, Range range) {
+    return read_file(table, column, range, head_unit(table.text_or("unit", "cm"), table.place("unit")));
+}
+
+SoilSeries SoilSeries::read_file(const Settings& table, const std::string& column_name, Range range,
+                                 const Convert& convert) {
     const std::filesystem::path path = table.path("file");
-    const std::string column_name = table.text("column");
     SoilSeries series;
     series.name_ = path.filename().string() + ": " + column_name;
     series.values_.clear();
@@ -47,13 +62,13 @@ SoilSeries SoilSeries::read(const Settings& settings, const std::string& key, do
     }
     for (auto row = rows.begin() + 1; row != rows.end(); ++row) {
         const Place place = table_rows.place(*row);
-        const double day = number_in(*row, 0, header[0], place, Range::any());
+        const double day = number_in(*row, 0, header[0], place, Range::any(), {});
         if (!series.times_.empty() && day <= series.times_.back()) {
             throw UserError(place, fmt::format("day {} is not behind day {} of the line before", format_general(day),
                                                format_general(series.times_.back())));
         }
         series.times_.push_back(day);
-        series.values_.push_back(number_in(*row, column, column_name, place, range));
+        series.values_.push_back(number_in(*row, column, column_name, place, range, convert));
         if (!row->is_missing(column)) continue;
         throw UserError(place,
                         fmt::format("'{}' of '{}' stands for a value that was not measured: a series has no gaps",

@@ -3,6 +3,7 @@
 
 #include "espalier/base/settings.h"
 
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -19,6 +20,9 @@ public:
     /// the beginning of the run, rising. Throws UserError with the line of the file for a gap, a word or a value out of
     /// `range`.
     static SoilSeries read(const Settings& settings, const std::string& key, double fallback, Range range);
+    /// A pressure head: a number of cm, a text with a unit, or a file, which may say the unit of its column: { file,
+    /// column, unit = "hPa" }. The range is in cm.
+    static SoilSeries read_head(const Settings& settings, const std::string& key, Range range);
 
     bool is_constant() const { return times_.empty(); }
     void set(double value) { values_ = {value}; }
@@ -28,7 +32,13 @@ public:
     /// The first change behind `day`; infinite if there is none.
     double next_change(double day) const;
 
+    /// A column of heads of the file that `table` names by `file`, with `unit`.
+    static SoilSeries read_head_column(const Settings& table, const std::string& column, Range range);
+
 private:
+    using Convert = std::function<double(double)>;
+    static SoilSeries read_file(const Settings& table, const std::string& column, Range range, const Convert& convert);
+
     std::string name_;  ///< "weather.csv: rain"
     std::vector<double> times_, values_{0};
 };

@@ -39,6 +39,10 @@ public:
     virtual const SoilLayout& layout() const = 0;
     virtual const WaterBrick& contents() const = 0;
     virtual double days_per_unit() const = 0;
+    /// To the nearest stone, side or floor, m; see WaterSolids.
+    virtual double distance_to_wall(const glm::dvec3& point) const = 0;
+    /// Tells the user, once.
+    virtual void warn_of_root_outside(std::uint32_t plant, const glm::dvec3& point) = 0;
 };
 
 }  // namespace espalier::environment

@@ -26,6 +26,8 @@ double effective_saturation(const SoilKind& soil, double head) {
             return math::any_power(inner_saturation(soil, head), 1 - 1 / soil.n);
         case SoilKind::Model::brooks_corey:
             return -soil.alpha * head <= 1 ? 1 : math::any_power(-soil.alpha * head, -soil.n);
+        case SoilKind::Model::curves:
+            return (soil.curves->content(head) - soil.residual) / (soil.saturated - soil.residual);
         default:
             return math::exp(soil.alpha * head);
     }
@@ -33,6 +35,7 @@ double effective_saturation(const SoilKind& soil, double head) {
 
 double conductivity(const SoilKind& soil, double head) {
     if (head >= 0) return soil.conductivity;
+    if (soil.model == SoilKind::Model::curves) return soil.curves->conductivity(head);
     const double saturation = effective_saturation(soil, head);
     switch (soil.model) {
         case SoilKind::Model::van_genuchten: {

@@ -57,6 +57,7 @@ void read_sides(const Settings& settings, SoluteParameters& parameters) {
     const Settings boundaries = settings.table("boundaries");
     const Settings top = boundaries.table("top"), bottom = boundaries.table("bottom");
     parameters.rain = SoilSeries::read(top, "entering", 0, concentrations);
+    parameters.sides.entering_sides = boundaries.table("sides").number_or("entering", 0, concentrations);
     parameters.sides.entering_bottom = bottom.number_or("entering", 0, concentrations);
     if (top.has("held")) parameters.sides.held_top = top.number("held", concentrations);
     if (bottom.has("held")) parameters.sides.held_bottom = bottom.number("held", concentrations);
@@ -67,6 +68,7 @@ void read_space(Settings& settings, const EnvironmentContext& context, SolutePar
     read_water_space(settings, context, parameters.soil.water);
     parameters.soil.days = settings.number_or("days", 1, Range{0, 1e6, true});
     parameters.soil.periodic = settings.choice_or("sides", "closed", {"closed", "periodic"}) == "periodic";
+    parameters.soil.outside = read_outside(settings);
     SoilKind kind;
     kind.saturated = settings.number_or("porosity", 0.43, Range{0.01, 1, false});
     kind.conductivity = 10;
@@ -118,6 +120,7 @@ decay          0 1/d, 0 to 1e6; of what is in the water and on the solids
 sources        []; tables of a shape, or of bottom and top, with rate, amount/cm3 of soil and day
 events         []; fertiliser: tables of a shape, or of bottom and top, with day and amount, which is spread over it
 boundaries     closed; in a table
+    sides      { entering } is that of water that enters through sides of given heads
     top        { entering } is the concentration of water that enters at the top, or { file = "rain.csv", column = "nitrate" };
                { held } is a concentration held at the surface
     bottom     { entering } is that of water that rises through the floor; { held } is held at the floor
@@ -139,13 +142,15 @@ flow           0 cm/d; Darcy flux downwards, everywhere
 obstacles      []; shapes without soil; obstacle_field, container_field and dimensions are as in soil-water
 sides          "closed", or "periodic"; closed: nothing passes; periodic: what leaves at a side enters at the other
 days           1 d, > 0; days that a unit of the scene's time stands for
+outside        "stop growing", or "ignore", "error"; of roots that leave it, as in soil-water
 
 ?name(c)               -> concentration, amount/cm3
 ?name(c, gx, gy, gz)   -> ..., its gradient, amount/cm3 per cm
 ?name(c, gx, gy, gz, u) -> ..., what the plant took up in this step
+?name(c, gx, gy, gz, u, r) -> ..., distance to the nearest wall, m: a stone, a side that is not periodic, the floor
 
-Fields: `name` (concentration) and `name.amount` (per cm3 of soil). Statistics: uptake (this plant, this step) and total (this
-plant, since the beginning); stored, and since the beginning fertilised, produced, decayed, taken (by all plants),
-inflow (net, at the top), leached (through the floor), rising (in through the floor); balance as in soil-water; minimum, maximum.)";
+Fields: `name` (concentration) and `name.amount` (per cm3 of soil). Statistics: uptake (this plant, per day, the mean of the step) and
+total (this plant, since the beginning); stored, and since the beginning fertilised, produced, decayed, taken (by all plants),
+inflow (net, at the top), leached (through the floor), rising (in through the floor), sides (net, in); balance as in soil-water; minimum, maximum.)";
 
 }  // namespace espalier::environment

@@ -68,11 +68,14 @@ void SoluteInSoil::begin_step(const WorldView& world, double days_per_unit, cons
     transport_.set_content(contents);
     transport_.find_concentrations();
     std::fill(in_step_.begin(), in_step_.end(), 0);
+    days_in_step_ = 0;
+    root_outside_.reset();
     pieces_.clear();
     if (parameters_.kinetics.any()) {
         static const std::vector<RootConductances> none{{RootCurve{{}, {0}}, RootCurve{{}, {0}}}};
         for (const PlantView& plant : world.plants) {
             const PlantRoots roots = roots_in_soil(plant, world, days_per_unit, layout_, none, RootMeasure::age);
+            if (roots.left_at && !root_outside_) root_outside_ = {plant.plant, *roots.left_at};
             for (std::size_t i = 0; i < roots.pieces.size(); ++i) {
                 if (roots.cells[i] == PlantRoots::no_cell) continue;
                 pieces_.push_back({roots.cells[i], roots.radii[i], roots.pieces[i].length, plant.plant});
@@ -115,6 +118,7 @@ void SoluteInSoil::advance(const SoilMovement& movement, const WaterBrick& conte
         transport_.find_concentrations();
     }
     day_ = end;
+    days_in_step_ += movement.days;
     measure();
 }
 
@@ -202,9 +206,10 @@ void SoluteInSoil::measure() {
 double SoluteInSoil::balance_error() const {
     const SoluteAccount& a = account_;
     const SoluteFlown& f = transport_.flown();
-    const double missing = a.start + a.fertilised + a.produced + f.top + f.bottom - a.decayed - a.taken - a.stored;
-    const double largest = std::max(
-        {a.start, a.stored, a.fertilised, a.produced, std::abs(f.top), std::abs(f.bottom), a.decayed, a.taken});
+    const double missing =
+        a.start + a.fertilised + a.produced + f.top + f.bottom + f.sides - a.decayed - a.taken - a.stored;
+    const double largest = std::max({a.start, a.stored, a.fertilised, a.produced, std::abs(f.top), std::abs(f.bottom),
+                                     std::abs(f.sides), a.decayed, a.taken});
     return largest > 0 ? missing / largest : 0;
 }
 
@@ -212,7 +217,7 @@ void SoluteInSoil::save(std::ostream& out) const {
     write_doubles(out, {transport_.amount.data(), transport_.amount.size()});
     write_doubles(out, taken_);
     write_doubles(out, in_step_);
-    const double numbers[] = {day_, static_cast<double>(next_event_)};
+    const double numbers[] = {day_, days_in_step_, static_cast<double>(next_event_)};
     write_doubles(out, numbers);
     out.write(reinterpret_cast<const char*>(&account_), sizeof account_);
     out.write(reinterpret_cast<const char*>(&transport_.flown()), sizeof(SoluteFlown));
@@ -222,10 +227,11 @@ void SoluteInSoil::restore(std::istream& in) {
     read_doubles(in, {transport_.amount.data(), transport_.amount.size()});
     read_doubles(in, taken_);
     read_doubles(in, in_step_);
-    double numbers[2];
+    double numbers[3];
     read_doubles(in, numbers);
     day_ = numbers[0];
-    next_event_ = static_cast<std::size_t>(numbers[1]);
+    days_in_step_ = numbers[1];
+    next_event_ = static_cast<std::size_t>(numbers[2]);
     in.read(reinterpret_cast<char*>(&account_), sizeof account_);
     in.read(reinterpret_cast<char*>(&transport_.flown()), sizeof(SoluteFlown));
 }

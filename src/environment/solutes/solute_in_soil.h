@@ -4,6 +4,7 @@
 #include "environment/solutes/parameters.h"
 
 #include <iosfwd>
+#include <optional>
 
 namespace espalier::environment {
 
@@ -23,6 +24,13 @@ public:
     double day() const { return day_; }
     double taken(std::uint32_t plant) const { return plant < taken_.size() ? taken_[plant] : 0; }
     double taken_in_step(std::uint32_t plant) const { return plant < in_step_.size() ? in_step_[plant] : 0; }
+    double days_in_step() const { return days_in_step_; }
+    /// In this step the first root that is outside the soil, and where.
+    struct RootOutside {
+        std::uint32_t plant;
+        glm::dvec3 place;
+    };
+    const std::optional<RootOutside>& root_outside() const { return root_outside_; }
     /// What the account misses, relative to its largest entry.
     double balance_error() const;
 
@@ -67,7 +75,8 @@ private:
     std::size_t next_event_ = 0;
     std::vector<double> taken_, in_step_;  ///< by plant
     SoluteAccount account_;
-    double day_ = 0;
+    double day_ = 0, days_in_step_ = 0;
+    std::optional<RootOutside> root_outside_;
 };
 
 }  // namespace espalier::environment

@@ -134,6 +134,7 @@ int SoluteTransport::parts(const SoilMovement& movement, const WaterBrick& conte
         }
         // A held concentration is half a voxel away.
         if (at.y == 0) leaving += std::max(-movement.floor[column], 0.0);
+        if (!movement.sides.empty()) leaving += std::max(-movement.sides[c], 0.0);
         if (at.y == 0) spreading += 2 * bottom_spread_[column];
         if (at.y == grid_.size().y - 1) spreading += 2 * top_spread_[column];
         const double water = std::max(std::min(contents[c], content_[c]), least_water);
@@ -194,6 +195,15 @@ void SoluteTransport::find_fluxes(const SoilMovement& movement, std::size_t row,
     }
 }
 
+void SoluteTransport::find_side_fluxes(const SoilMovement& movement, double entering) {
+    if (movement.sides.empty()) return;
+    sides_.resize(grid_.cells());
+    for_cells([&](std::size_t c, std::size_t) {
+        const double water = movement.sides[c];
+        sides_[c] = water * (water > 0 ? entering : concentration[c]);
+    });
+}
+
 /// Amount per volume and day that the faces take from a cell.
 double SoluteTransport::outflow(std::size_t row, std::size_t cell) const {
     const int x = static_cast<int>(cell - grid_.row_begin(row)), y = grid_.y_of(row), z = grid_.z_of(row);
@@ -206,6 +216,7 @@ double SoluteTransport::outflow(std::size_t row, std::size_t cell) const {
     }
     if (y == 0) out -= bottom_[column];
     if (y + 1 == grid_.size().y) out -= top_[column];
+    if (!sides_.empty()) out -= sides_[cell];
     return out / edge_;
 }
 
@@ -216,6 +227,7 @@ void SoluteTransport::pass_sides(double days) {
         flown_.bottom += area * days * bottom_[column];
         flown_.leached += area * days * std::max(-bottom_[column], 0.0);
     }
+    for (const double into : sides_) flown_.sides += area * days * into;
 }
 
 /// Heun's method: the mean of the amounts before and after two steps of Euler's.
@@ -224,6 +236,7 @@ void SoluteTransport::advance(const SoilMovement& movement, const WaterBrick& co
     start_ = amount;
     for (int stage = 0; stage < 2; ++stage) {
         layout_.for_rows([&](std::size_t row) { find_fluxes(movement, row, sides); });
+        find_side_fluxes(movement, sides.entering_sides);
         pass_sides(0.5 * days);
         for_cells([&](std::size_t c, std::size_t row) {
             const double stepped = amount[c] - days * outflow(row, c);

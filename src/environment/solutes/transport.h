@@ -18,7 +18,7 @@ struct SoluteProperties {
 
 /// What is beyond the upper and the lower face: the concentration of water that enters, or one that is held there.
 struct SoluteSides {
-    double entering_top = 0, entering_bottom = 0;
+    double entering_top = 0, entering_bottom = 0, entering_sides = 0;
     std::optional<double> held_top, held_bottom;
 };
 
@@ -26,6 +26,7 @@ struct SoluteSides {
 struct SoluteFlown {
     double top = 0, bottom = 0;  ///< into the soil
     double leached = 0;          ///< out through the bottom, a part of `bottom`
+    double sides = 0;            ///< into the soil through the sides
 };
 
 /// d(theta c + rho s)/dt = div(theta D grad c) - div(q c), theta D = theta tau D0 + dispersivity |q|, tau = theta^(7/3)
@@ -59,6 +60,7 @@ private:
     double face_concentration(const Line& line, std::size_t cell, std::size_t next, int place, double water,
                               const SoluteSides& sides) const;
     double outflow(std::size_t row, std::size_t cell) const;
+    void find_side_fluxes(const SoilMovement& movement, double entering);
     void pass_sides(double days);
     template <class Work>
     void for_cells(Work work) const;
@@ -71,6 +73,7 @@ private:
     std::array<WaterBrick, 3> spread_,
         flux_;  ///< theta D and the flux of solute, through faces as SoilMovement has them
     std::vector<double> top_, bottom_, top_spread_, bottom_spread_;  ///< of columns; into the soil
+    WaterBrick sides_;  ///< into voxels through sides of given heads; empty where there are none
     std::vector<double> row_rate_;
     SoluteFlown flown_;
 };

@@ -159,9 +159,9 @@ void read_water_space(Settings& settings, const EnvironmentContext& context, Wat
     parameters.container_field = settings.text_or("container_field", "");
 }
 
-void read_water_queries(Settings& settings, WaterParameters& parameters) {
+void read_water_queries(Settings& settings, WaterParameters& parameters, bool depletion) {
     const double h = parameters.voxel;
-    parameters.depletion = settings.flag_or("depletion", true);
+    parameters.depletion = settings.flag_or("depletion", depletion);
     parameters.amount = settings.choice_or("amount", "content", {"content", "volume"}) == "volume" ? h * h * h : 1;
     parameters.amount_place = settings.place("amount");
     parameters.range = settings.number_or("range", 1, Range::positive());
@@ -205,7 +205,7 @@ const WaterLayer* layer_at(const WaterParameters& parameters, double y) {
 
 const char* const soil_water_help = R"(A content (water in m3/m3, or any concentration) on a grid of cubic voxels.
 
-model            "linear" (default): diffusion, described here; "richards": see below
+model            "linear" (default): diffusion, described here; "richards", "still": see below
 domain           { lower = [x, y, z], upper = [x, y, z] }  m; default: the scene's
 voxel            m, required; the domain is covered by whole voxels about its middle
 dimensions       2 or 3; default 2 if the domain is at most one voxel deep (z); then z is ignored
@@ -245,6 +245,8 @@ gradient_length  m, one voxel: distance over which the difference is taken
 ?name(wish, g, h, _)                       -> obtained, dx, dy, dz
 ?name(wish, g, h, length, _, _, _, _)      -> obtained, dx, dy, dz, hx, hy, hz, clear
 ?name(wish, g, h, length, _, _, _, _, _)   -> ... and content
+?name(wish, g, h, length, ..., r)          -> with 14 parameters, r: distance to the nearest wall, m: a stone, a side, the
+                                              floor
 d = g * down + h * gradient * gradient_length / range. (hx, hy, hz): unit heading, the turtle's own bent by d, turned
 by 2, 4, ... 180 degrees until a segment of `length` from the turtle meets no obstacle and stays in the domain;
 clear = 1, or 0 with a zero heading if there is none. Requests that exceed the stock of a voxel share it in proportion.

@@ -78,7 +78,7 @@ struct WaterParameters {
 
 /// What both models have: domain, voxels, obstacles; then how queries are answered. Throws UserError.
 void read_water_space(Settings& settings, const EnvironmentContext& context, WaterParameters& parameters);
-void read_water_queries(Settings& settings, WaterParameters& parameters);
+void read_water_queries(Settings& settings, WaterParameters& parameters, bool depletion = true);
 
 /// Of the linear model. Throws UserError.
 WaterParameters read_water_parameters(Settings& settings, const EnvironmentContext& context);

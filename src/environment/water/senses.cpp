@@ -45,6 +45,9 @@ WaterWish sense(const WaterSenses& soil, const Query& query, Answer answer) {
             answer[7] = way.clear;
         }
         if (arity >= 9) answer[8] = sample.content;
+        if (arity >= 14) {
+            answer[13] = soil.solids.distance_to_wall(query.pose.position, soil.grid, soil.joined_x, soil.joined_z);
+        }
     }
     // A bound that no soil reaches keeps sums of wishes finite.
     return {sample.stencil, std::clamp(query.parameters[0], 0.0, 1e100) / soil.parameters.amount};

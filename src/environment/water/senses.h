@@ -20,6 +20,7 @@ struct WaterSenses {
     const WaterSolids& solids;
     const WaterParameters& parameters;
     const WaterBrick& contents;
+    bool joined_x = false, joined_z = false;  ///< sides with those across
 };
 
 /// Writes what each query senses into its answer; returns what each wishes. Throws RunError for a parameter that is not

@@ -8,6 +8,7 @@
 #include <tbb/blocked_range.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace espalier::environment {
@@ -44,6 +45,24 @@ double WaterSolids::clearance(const glm::dvec3& point) const {
     if (obstacle_field_) nearest = std::min(nearest, sample(*obstacle_field_, point));
     if (container_field_) nearest = std::min(nearest, -sample(*container_field_, point));
     return nearest;
+}
+
+double WaterSolids::distance_to_wall(const glm::dvec3& point, const WaterGrid& grid, bool joined_x,
+                                     bool joined_z) const {
+    const glm::dvec3 lower = grid.lower(), upper = grid.upper();
+    const bool joined[] = {joined_x, false, joined_z};
+    glm::dvec3 at = point;
+    double nearest = point.y - lower.y;
+    for (const int axis : {0, 2}) {
+        if (axis == 2 && grid.flat()) continue;
+        const double width = upper[axis] - lower[axis];
+        if (joined[axis]) {
+            at[axis] -= width * std::floor((at[axis] - lower[axis]) / width);
+        } else {
+            nearest = std::min({nearest, point[axis] - lower[axis], upper[axis] - point[axis]});
+        }
+    }
+    return std::min(nearest, clearance(at));
 }
 
 bool WaterSolids::blocks(const glm::dvec3& from, const glm::dvec3& direction, double length, double resolution) const {

@@ -21,6 +21,9 @@ public:
     bool any() const { return !obstacles_.empty() || obstacle_field_ || container_field_; }
     /// Distance from `point` to the nearest solid, not positive inside one.
     double clearance(const glm::dvec3& point) const;
+    /// Distance from `point` to the nearest wall: a solid, a side of the grid that is not joined to the one across, or
+    /// its floor; negative beyond one. The surface is no wall.
+    double distance_to_wall(const glm::dvec3& point, const WaterGrid& grid, bool joined_x, bool joined_z) const;
     /// True if a solid lies on the segment; steps of at least `resolution` follow the distances (sphere tracing, Hart
     /// 1996). `direction` is a unit vector.
     bool blocks(const glm::dvec3& from, const glm::dvec3& direction, double length, double resolution) const;

@@ -170,6 +170,35 @@ void DeclarationParser::process_declaration() {
     if (std::find(model_.processes.begin(), model_.processes.end(), name) == model_.processes.end()) {
         model_.processes.push_back(name);
     }
+    if (!in_.accept("=")) return;
+    const std::vector<double> answer = default_answer(name);
+    const auto [known, is_new] = model_.default_answers.emplace(name, answer);
+    if (!is_new && known->second != answer) {
+        throw SyntaxError{at, fmt::format("the process '{}' already has another default", name)};
+    }
+}
+
+double DeclarationParser::constant_number(const std::string& meaning) {
+    in_.skip();
+    const Location at = in_.here();
+    names_.set_constants_only(true);
+    const Expression expression = expressions_.expression();
+    names_.set_constants_only(false);
+    const std::optional<double> value = constant_value(expression);
+    if (!value) throw SyntaxError{at, fmt::format("{} has no value that is known now", meaning)};
+    return *value;
+}
+
+// environment light = 1; or environment wind = { 0, 0, 1 };
+std::vector<double> DeclarationParser::default_answer(const std::string& process) {
+    const std::string meaning = fmt::format("the default of '{}'", process);
+    if (!in_.accept("{")) return {constant_number(meaning)};
+    const Scanner::Inside inside(in_, Scanner::Inside::braces);
+    std::vector<double> answer;
+    do answer.push_back(constant_number(meaning));
+    while (in_.accept(","));
+    in_.expect("}", "after " + meaning);
+    return answer;
 }
 
 void DeclarationParser::constant_declaration() {
@@ -178,12 +207,7 @@ void DeclarationParser::constant_declaration() {
     const std::string name(in_.accept_name());
     if (name.empty()) in_.expected("the name of a constant");
     in_.expect("=", fmt::format("after 'const {}'", name));
-    names_.set_constants_only(true);
-    const Expression expression = expressions_.expression();
-    names_.set_constants_only(false);
-    const std::optional<double> value = constant_value(expression);
-    if (!value) throw SyntaxError{at, fmt::format("the constant '{}' has no value that is known now", name)};
-    names_.define_constant(name, *value, at);
+    names_.define_constant(name, constant_number(fmt::format("the constant '{}'", name)), at);
     in_.end_statement("the constant");
 }
 

@@ -30,6 +30,8 @@ private:
     void check_size(const ArrayDeclaration& array, Location at);
     void module_declaration();
     void process_declaration();
+    double constant_number(const std::string& meaning);
+    std::vector<double> default_answer(const std::string& process);
     void constant_declaration();
     void field_declaration();
     void field_components(const std::string& name);

@@ -74,7 +74,7 @@ Scene scene_of_object(const ObjectFiles& object, const SceneOptions& options) {
         coloured.colour_maps[1] = std::exchange(coloured.colours_of_library, {});
         return scene_of_object(coloured, options);
     }
-    if (object.warns_of_unanswered && scene.environment.processes.empty() && asks_processes(model)) {
+    if (object.warns_of_unanswered && scene.environment.processes.empty() && needs_processes(model)) {
         Diagnostic warning;
         warning.severity = Diagnostic::Severity::warning;
         warning.place.file = model.path.string();

@@ -1,4 +1,5 @@
 // How a world is made of a scene.
+#include "base/text.h"
 #include "simulation/scene/expressions.h"
 #include "simulation/scene/scene_keyframes.h"
 #include "simulation/world/world_state.h"
@@ -104,6 +105,7 @@ void World::State::make_plants(const std::filesystem::path& files) {
         std::shared_ptr<const SymbolTable>& table = symbols[plant.model.get()];
         if (!table) {
             table = symbol_table(model);
+            warn_of_likely_names(model, plant.name);
             exchanges = exchanges || has_queries(model.alphabet);
         }
         const auto number = static_cast<std::uint32_t>(plants.size());
@@ -111,6 +113,21 @@ void World::State::make_plants(const std::filesystem::path& files) {
         settings.memory -= held;
         const GrowingPlant& made = plants.emplace_back(number, plant, table, settings);
         held = std::min(held + made.derivation.working_memory({}), memory.bytes());
+    }
+}
+
+// A default must not hide that a name is misspelt.
+void World::State::warn_of_likely_names(const Model& model, const std::string& plant) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < environment->size(); ++i) names.push_back(environment->name(i));
+    for (const std::string& name : environment->answered_by_default(model)) {
+        const std::string likely = did_you_mean(name, names);
+        if (likely.empty()) continue;
+        warnings.push_back({Diagnostic::Severity::warning, Place(),
+                            fmt::format("plant '{}': ?{} is answered the default of {}, because the scene has no "
+                                        "process of that name{}",
+                                        plant, name, model.name, likely),
+                            ""});
     }
 }
 

@@ -52,6 +52,7 @@ struct World::State {
     void share_out_memory();
     void make_environment();
     void make_plants(const std::filesystem::path& files);
+    void warn_of_likely_names(const Model& model, const std::string& plant);
     void set_lengths();
     DerivationSettings derivation_settings(const Plant& plant, const std::filesystem::path& files) const;
     double time() const { return step * scene.dt; }

@@ -87,7 +87,10 @@ public:
 
     /// Null if they do not derive alike.
     std::shared_ptr<const ParameterChanges> changes() {
-        if (before_.arithmetic != now_.arithmetic || before_.processes != now_.processes) return nullptr;
+        const auto asks_alike = [&] {
+            return before_.processes == now_.processes && before_.default_answers == now_.default_answers;
+        };
+        if (before_.arithmetic != now_.arithmetic || !asks_alike()) return nullptr;
         const bool is_same = same_all(before_.systems, now_.systems,
                                       [this](const LSystem& a, const LSystem& b) { return is_same_system(a, b); });
         return is_same ? collected() : nullptr;

@@ -400,4 +400,49 @@ TEST_CASE("what cannot be is refused with its place", "[environment][nutrient]")
     CHECK_THAT(error(column(4, 1, "voxels = 3\n")), Contains("voxels"));
 }
 
+TEST_CASE("the uptake of a plant is that of a day, whatever the length of a step", "[environment][nutrient]") {
+    for (const double dt : {1.0, 0.25}) {
+        Solute solute(column(10, 1, full + "initial = 5\nzone = false\nuptake = { vmax = 0.01, km = 1e-9 }\n"));
+        solute.add_root(0, -0.02, -0.06);
+        for (int step = 0; step < 1 / dt; ++step) solute.step(dt);
+        // vmax times the surface: a radius of 0.02 cm, 4 cm long.
+        CHECK(solute.quantity("uptake") == Approx(0.01 * 2 * std::numbers::pi * 0.02 * 4).epsilon(1e-6));
+        CHECK(solute.quantity("total") == Approx(solute.quantity("uptake")).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("a tip is told how far the nearest wall of its soil is, and a root that leaves it ends",
+          "[environment][nutrient]") {
+    const std::string uptake = "uptake = { vmax = 0.01, km = 1e-9 }\nzone = false\n";
+    const std::vector<double> parameters(6, 0);
+    Solute alone(column(10, 1, full + "initial = 5\n" + uptake));
+    CHECK(alone.ask({0.001, -0.05, 0}, parameters)[5] == Approx(0.004));
+    CHECK(alone.ask({0, -0.098, 0}, parameters)[5] == Approx(0.002));
+    Solute in_soil("soil = \"water\"\ninitial = 5\n" + uptake,
+                   column(10, 1, "model = \"richards\"\nsoil = \"loam\"\nboundaries = { sides = \"periodic\" }\n"));
+    CHECK(in_soil.ask({0.001, -0.05, 0}, parameters)[5] == Approx(0.004));  // one voxel is not joined to itself
+    CHECK(in_soil.ask({0, -0.098, 0}, parameters)[5] == Approx(0.002));
+    for (Solute* const solute : {&alone, &in_soil}) {
+        solute->add_root(0, -0.06, -0.14);  // half of it is below the floor
+        solute->step();
+        CHECK(solute->quantity("uptake") == Approx(0.01 * 2 * std::numbers::pi * 0.02 * 4).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("water that enters at a side brings its solute, and what leaves takes it along", "[environment][nutrient]") {
+    const std::string soil =
+        "model = \"richards\"\ndomain = { lower = [0, -0.02, 0], upper = [0.2, 0, 0] }\nvoxel = 0.02\n"
+        "soil = \"sandy loam\"\ninitial = { head = -40 }\nboundaries = { left = { head = -20 }, right = { head = -60 } "
+        "}\n";
+    Solute solute("soil = \"water\"\ninitial = 2\nboundaries = { sides = { entering = 2 } }\n", soil);
+    for (int day = 0; day < 20; ++day) solute.step();
+    for (double x = 0.01; x < 0.2; x += 0.02) CHECK(solute.ask({x, -0.01, 0})[0] == Approx(2).epsilon(1e-6));
+    CHECK(std::abs(solute.quantity("balance")) < 1e-9);
+    Solute rinsed("soil = \"water\"\ninitial = 2\n", soil);
+    for (int day = 0; day < 200; ++day) rinsed.step();
+    CHECK(rinsed.quantity("sides") < 0);
+    CHECK(rinsed.quantity("stored") < 0.05 * -rinsed.quantity("sides"));
+    CHECK(std::abs(rinsed.quantity("balance")) < 1e-9);
+}
+
 }  // namespace espalier::test

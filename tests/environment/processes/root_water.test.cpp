@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <deque>
 #include <numbers>
@@ -13,7 +14,9 @@ namespace {
 
 /// A soil with roots that are drawn by hand.
 struct RootedSoil {
-    RootedSoil(const std::string& soil, const std::string& roots) : water(soil) {
+    RootedSoil(const std::string& soil, const std::string& roots, bool warns = false)
+        : water(soil, context_with(warns ? &warnings : nullptr)) {
+        context.warnings = warns ? &warnings : nullptr;
         context.name = "roots";
         context.plants = 2;
         Settings settings = Settings::parse_toml(roots, "roots.toml");
@@ -53,6 +56,13 @@ struct RootedSoil {
         throw RunError("no quantity " + name);
     }
 
+    static EnvironmentContext context_with(std::vector<Diagnostic>* warnings) {
+        EnvironmentContext context;
+        context.warnings = warnings;
+        return context;
+    }
+
+    std::vector<Diagnostic> warnings;
     Soil water;
     EnvironmentContext context;
     Model model;
@@ -82,7 +92,7 @@ TEST_CASE("in wet soil a plant transpires its demand, and the soil loses as much
     for (int day = 0; day < 3; ++day) {
         pair.step();
         CHECK(pair.quantity("transpiration") == Approx(0.5).epsilon(1e-6));
-        CHECK(pair.quantity("potential") == Approx(0.5));
+        CHECK(pair.quantity("demand") == Approx(0.5));
     }
     CHECK(pair.quantity("total") == Approx(1.5).epsilon(1e-6));
     CHECK(pair.water.quantity("drunk") == Approx(10 * pair.quantity("total") / area).epsilon(1e-9));
@@ -98,7 +108,7 @@ TEST_CASE("Krs is that of one root in closed form", "[environment][roots]") {
     pair.step(0.01);
     const double around = 2 * std::numbers::pi * 0.1, tau = std::sqrt(around * 1.73e-4 / 0.0432);
     CHECK(pair.quantity("conductance") == Approx(0.0432 * tau * std::tanh(20 * tau)).epsilon(1e-9));
-    CHECK(std::isnan(pair.quantity("potential")));
+    CHECK(std::isnan(pair.quantity("demand")));
 }
 
 TEST_CASE("as the soil dries the collar falls to its limit, and transpiration below the demand",
@@ -113,7 +123,7 @@ TEST_CASE("as the soil dries the collar falls to its limit, and transpiration be
         CHECK(pair.quantity("collar") > -15000.01);
         const double now = pair.quantity("transpiration");
         if (stressed) CHECK(now < before + 1e-9);
-        stressed = stressed || now < 0.99 * pair.quantity("potential");
+        stressed = stressed || now < 0.99 * pair.quantity("demand");
         before = now;
     }
     CHECK(stressed);
@@ -132,8 +142,9 @@ TEST_CASE("at night roots lift water from wet to dry soil", "[environment][roots
     CHECK(pair.quantity("transpiration") == Approx(0).margin(1e-9));
     CHECK(uptake.grid->tree().getValue(openvdb::Coord(2, 11, 2)) < 0);  // the top gets water
     CHECK(uptake.grid->tree().getValue(openvdb::Coord(2, 1, 2)) > 0);
-    pair.step(0.5);  // the day
-    CHECK(pair.quantity("transpiration") == Approx(2).epsilon(1e-3));
+    pair.step(0.5);  // the day, in which all of the 2 cm3 go
+    CHECK(pair.quantity("transpiration") == Approx(4).epsilon(1e-3));
+    CHECK(pair.quantity("demand") == Approx(4).epsilon(1e-6));
     pair.step(0.25);
     CHECK(pair.quantity("total") == Approx(2).epsilon(1e-3));
 }
@@ -190,7 +201,7 @@ TEST_CASE("Feddes' roots take by length what soil neither too wet nor too dry gi
                         drinks + "model = \"feddes\"\ncollar = { transpiration = 1 }\n");
         pair.add_root(0.01, 0.01, 0.2);
         pair.step(0.001);
-        return pair.quantity("transpiration") / 0.001;
+        return pair.quantity("transpiration");
     };
     CHECK(part(-100) == Approx(1).epsilon(1e-3));
     CHECK(part(-5) == Approx(0).margin(1e-6));
@@ -259,20 +270,20 @@ TEST_CASE("organs know their water without a query, as a query is told it", "[en
         std::vector<Query> queries{query};
         std::vector<Answer> answers{Answer(told)};
         plant.process->answer(plant.water.world, queries, answers, plant.water.fields);
-        const char* const names[] = {"potential", "uptake", "soil", "fraction"};
+        const char* const names[] = {"head", "uptake", "soil", "fraction"};
         for (std::size_t n = 0; n < 4; ++n) CHECK(values(names[n])[i] == static_cast<float>(told[n]));
         CHECK(values("radial")[i] == Approx(1.73e-4));
         CHECK(values("axial")[i] == Approx(0.0432));
         uptake += told[1];
         fractions += told[3];
     }
-    CHECK(uptake * 0.01 == Approx(plant.quantity("transpiration")).epsilon(1e-3));  // of the last substep
+    CHECK(uptake == Approx(plant.quantity("transpiration")).epsilon(1e-3));  // of the last substep
     CHECK(fractions == Approx(1).epsilon(1e-9));
     for (const OrganQuantity& quantity : plant.process->organ_quantities()) {
         REQUIRE(values(quantity.name).size() == 5);
         CHECK(std::isnan(values(quantity.name)[4]));
     }
-    CHECK(plant.process->organ_values("potential", 7) == nullptr);
+    CHECK(plant.process->organ_values("head", 7) == nullptr);
 }
 
 TEST_CASE("a model says the conductances of its roots", "[environment][roots]") {
@@ -320,14 +331,160 @@ TEST_CASE("mistakes of roots are clear lines", "[environment][roots]") {
     CHECK(mistake("domain = { lower = [0, -1, 0], upper = [1, 0, 0] }\nvoxel = 0.1\n",
                   drinks + "collar = { head = -5 }\n")
               .find("is not a soil-water with model = \"richards\"") != std::string::npos);
-    RootedSoil pair(soil, drinks + "collar = { head = -500 }\n");
-    pair.add_root(0.01, 0.01, 0.5);
-    try {
-        pair.step();
-        FAIL("the root leaves the soil");
-    } catch (const RunError& error) {
-        CHECK(std::string(error.what()).find("a root of plant 0 leaves the soil at (0.01, -0.2") != std::string::npos);
+    CHECK(mistake(soil, drinks + "collar = { head = 20 }\n").find("'head'") != std::string::npos);
+    CHECK(mistake(soil, drinks + "collar = { transpiration = 1, limit = \"-1.6 Mpa\" }\n").find("'MPa'") !=
+          std::string::npos);
+}
+
+TEST_CASE("rates of a plant are those of a day, whatever the length of a step", "[environment][roots]") {
+    const auto rates = [](double dt, int steps, const std::string& days) {
+        RootedSoil pair(pot(0.02, "soil = \"loam\"\ninitial = { head = -100 }\n" + days),
+                        drinks + "collar = { transpiration = 0.5 }\n");
+        pair.add_root(0, 0, 0.2);
+        for (int step = 0; step < steps; ++step) pair.step(dt);
+        return std::array{pair.quantity("transpiration"), pair.quantity("demand"), pair.quantity("total")};
+    };
+    for (const double dt : {2.0, 0.5, 0.125}) {
+        const auto [transpiration, demand, total] = rates(dt, static_cast<int>(2 / dt), "");
+        CHECK(transpiration == Approx(0.5).epsilon(1e-6));
+        CHECK(demand == Approx(0.5).epsilon(1e-9));
+        CHECK(total == Approx(1).epsilon(1e-6));
     }
+    CHECK(rates(24, 2, "days = 0.041666666666666664\n")[0] == Approx(0.5).epsilon(1e-6));  // dt in hours
+    RootedSoil first(pot(0.02, "soil = \"loam\"\n"), drinks + "collar = { transpiration = 0.5 }\n");
+    first.add_root(0, 0, 0.2);
+    first.water.world.step = 0;  // no time has passed: what flows at that moment
+    first.step();
+    CHECK(first.quantity("transpiration") == Approx(0.5).epsilon(1e-6));
+    CHECK(first.quantity("demand") == 0.5);
+    CHECK(first.quantity("total") == 0);
+}
+
+namespace {
+
+/// A root of 0.4 m, of which the soil has the upper 0.24.
+struct TooLong : RootedSoil {
+    explicit TooLong(const std::string& outside, double length = 0.4, int internodes = 10)
+        : RootedSoil(pot(0.02, "soil = \"loam\"\ninitial = { table = -2 }\n" + outside),
+                     drinks + "zone = false\ncollar = { head = -1000 }\n", true) {
+        add_root(0.01, 0.01, length, 0.001, internodes);
+        step(0.001);
+    }
+};
+
+/// Of a root with a closed tip. One that goes on where it takes nothing up is the same.
+double conductance_of(double in_soil) {
+    const double tau = std::sqrt(2 * std::numbers::pi * 0.1 * 1.73e-4 / 0.0432);
+    return 0.0432 * tau * std::tanh(in_soil * tau);
+}
+
+}  // namespace
+
+TEST_CASE("a root that leaves the soil ends there, goes on, or ends the run", "[environment][roots]") {
+    const TooLong ends(""), ignored("outside = \"ignore\"\n");
+    for (const TooLong* const root : {&ends, &ignored}) {
+        CHECK(root->quantity("conductance") == Approx(conductance_of(24)).epsilon(1e-9));
+        REQUIRE(root->warnings.size() == 1);
+        CHECK(root->warnings[0].message.find("leaves the soil of 'water' at (0.01, -0.25") != std::string::npos);
+    }
+    CHECK(ends.warnings[0].message.find("takes no part") != std::string::npos);
+    CHECK(ignored.warnings[0].message.find("takes nothing up") != std::string::npos);
+    CHECK(std::isnan(ends.process->organ_values("head", 0)->back()));
+    CHECK(ignored.process->organ_values("uptake", 0)->back() == 0);
+    CHECK_THROWS_WITH(TooLong("outside = \"error\"\n"),
+                      Catch::Matchers::Contains("a root of plant 0 leaves the soil at (0.01, -0.25"));
+}
+
+TEST_CASE("a root that leaves the soil and comes back takes part again only where it is ignored outside",
+          "[environment][roots]") {
+    const auto depth = [](const std::string& outside) {
+        RootedSoil pair(pot(0.02, "soil = \"loam\"\ninitial = { head = -100 }\n" + outside),
+                        drinks + "collar = { head = -1000 }\n", true);
+        pair.add_root(0.01, 0.01, 0.2);
+        // Out through a side, and back in lower down.
+        auto& internodes = pair.interpretations[0].geometry.internodes;
+        internodes[1].tip = internodes[2].base = {0.07, -0.1, 0.01};
+        internodes[2].tip = internodes[3].base = {0.01, -0.15, 0.01};
+        pair.step(0.01);
+        return pair.quantity("suf_depth");
+    };
+    CHECK(depth("outside = \"ignore\"\n") > 7);
+    CHECK(depth("outside = \"stop growing\"\n") < 6);
+}
+
+TEST_CASE("a tip is told how far the nearest wall is", "[environment][roots]") {
+    Soil soil(
+        pot(0.02, "soil = \"loam\"\nobstacles = [{ shape = \"sphere\", center = [0, -0.12, 0], radius = 0.01 }]\n"));
+    const auto room = [](Soil& in, const glm::dvec3& at) {
+        std::vector<double> parameters(14, 0);
+        parameters[3] = 0.01;
+        return in.ask({{at, parameters}})[0][13];
+    };
+    CHECK(room(soil, {0.03, -0.05, 0}) == Approx(0.01));    // a side
+    CHECK(room(soil, {0, -0.22, -0.001}) == Approx(0.02));  // the floor
+    CHECK(room(soil, {0, -0.12, 0.025}) == Approx(0.015));  // side and stone
+    CHECK(room(soil, {0, -0.105, 0}) == Approx(0.005));     // the stone
+    CHECK(room(soil, {0.05, -0.05, 0}) == Approx(-0.01));   // beyond
+    CHECK(room(soil, {0, -0.001, 0}) == Approx(0.04));      // the surface is no wall
+    Soil periodic(pot(0.02, "soil = \"loam\"\nboundaries = { sides = \"periodic\" }\n"));
+    CHECK(room(periodic, {0.039, -0.05, 0}) == Approx(0.19));
+}
+
+namespace {
+
+/// What a root conducts whose internodes have these ages: the soil sees ever less of it from the tip up.
+double conductance_with_ages(const std::vector<double>& said, const std::string& along = "") {
+    RootedSoil pair(pot(0.02, "soil = \"loam\"\n"),
+                    "radial = { at = [0, 10], values = [2e-4, 0] }\naxial = 1e6\ncollar = { head = -500 }\n" + along,
+                    true);
+    pair.model.processes = {"roots"};
+    pair.add_root(0.01, 0.01, 0.2);
+    ModuleString& string = pair.strings[0];
+    string = {};
+    const LetterId internode = pair.model.alphabet.letter("F", 0), asks = pair.model.alphabet.letter("?roots", 5);
+    std::deque<std::vector<double>> parameters;
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        string.append(internode, {});
+        pair.interpretations[0].geometry.internodes[i].module = static_cast<std::uint32_t>(string.size() - 1);
+        if (said.empty()) continue;
+        parameters.push_back({0, 0, 0, 0, said[i]});
+        string.append(asks, parameters.back());
+        Query query;
+        query.process = 0;
+        query.module = static_cast<std::uint32_t>(string.size() - 1);
+        query.parameters = parameters.back();
+        pair.interpretations[0].queries.push_back(query);
+    }
+    pair.step(0.01);
+    if (!along.empty()) CHECK(pair.warnings.size() == 1);
+    return pair.quantity("conductance");
+}
+
+}  // namespace
+
+TEST_CASE("a model says the ages of its roots within a step", "[environment][roots]") {
+    const double surface = 2 * std::numbers::pi * 0.1 * 5, young = 2e-4 * surface;  // of an internode
+    CHECK(conductance_with_ages({}) == Approx(4 * young).epsilon(1e-4));
+    CHECK(conductance_with_ages({9, 6.5, 2.25, 0}) == Approx((0.1 + 0.35 + 0.775 + 1) * young).epsilon(1e-4));
+    CHECK(conductance_with_ages({40, 40, 40, 5}) == Approx(0.5 * young).epsilon(1e-4));
+    CHECK_THROWS_WITH(conductance_with_ages({1, 1, 1, -0.5}), Catch::Matchers::Contains("a root -0.5 days old"));
+    CHECK(conductance_with_ages({1, 1, 1, 1}, "along = \"distance from tip\"\n") > 0);
+}
+
+TEST_CASE("in soil that stands still a root takes every day what the closed form has", "[environment][roots]") {
+    RootedSoil pair(pot(0.02, "soil = \"loam\"\ninitial = { table = -2 }\n").replace(9, 8, "still"),
+                    drinks + "zone = false\ncollar = { head = -1000 }\n");
+    pair.add_root(0.01, 0.01, 0.2);
+    const double tau = std::sqrt(2 * std::numbers::pi * 0.1 * 1.73e-4 / 0.0432);
+    const double exact = 0.0432 * tau * std::tanh(20 * tau) * (1000 - 200);  // total heads, of which gravity is a part
+    for (int day = 0; day < 4; ++day) {
+        pair.step();
+        CHECK(pair.quantity("transpiration") == Approx(exact).epsilon(1e-9));
+    }
+    CHECK(pair.water.quantity("drunk") == Approx(10 * 4 * exact / area).epsilon(1e-9));
+    CHECK(pair.water.quantity("added") == Approx(pair.water.quantity("drunk")).epsilon(1e-12));
+    CHECK(std::abs(pair.water.quantity("balance")) < 1e-12);
+    CHECK(pair.water.process->statistics(0).size() > 5);
 }
 
 }  // namespace espalier::test

@@ -118,8 +118,9 @@ TEST_CASE("an air-entry head leaves no overshoot in the table", "[environment][s
     CHECK(soil.at(-30).conductivity == Approx(30 * std::pow(0.5, 0.6 * 3 + 2)).epsilon(1e-5));
 }
 
-TEST_CASE("the library has the means of Carsel and Parrish and the classes of HYPRES", "[environment][soil]") {
-    CHECK(texture_library().size() == 22);
+TEST_CASE("the library has the means of Carsel and Parrish and of Rosetta, and the classes of HYPRES",
+          "[environment][soil]") {
+    CHECK(texture_library().size() == 34);
     for (const NamedSoil& named : texture_library()) {
         const SoilHydraulics soil(named.soil);
         double before = named.soil.conductivity;

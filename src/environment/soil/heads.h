@@ -1,0 +1,24 @@
+// Pressure heads as a scene says them: in cm of water, or with a unit.
+#pragma once
+
+#include "espalier/base/settings.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace espalier::environment {
+
+/// Of a unit by its name, "cm", "mm", "m", "Pa", "hPa", "kPa", "MPa", "bar" or "pF": what makes a number of it a head
+/// in cm. Water of 1 g/cm3 at 9.80665 m/s2, so that 1 MPa is 10197.2 cm; pF is log10 of -head (Schofield 1935). Throws
+/// UserError at `place` for another name.
+std::function<double(double)> head_unit(const std::string& name, const Place& place);
+
+/// A number is in cm; a text has a unit: "-1.5 MPa". The range is in cm. Throws UserError.
+double read_head(const Settings& settings, const std::string& key, Range range);
+double read_head_or(const Settings& settings, const std::string& key, double fallback, Range range);
+
+/// A list of numbers in cm, or of texts with units. Throws UserError.
+std::vector<double> read_heads(const Settings& settings, const std::string& key, Range range);
+
+}  // namespace espalier::environment
