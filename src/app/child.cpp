@@ -2,6 +2,7 @@
 
 #include "espalier/base/error.h"
 
+#include "base/folder.h"
 #include "base/platform.h"
 #include "command.h"
 
@@ -32,7 +33,7 @@ platform::OpenFile log_file(const std::filesystem::path& path) {
     if (path.empty()) return {};
     std::error_code error;
     platform::OpenFile file(path, platform::OpenFile::Mode::create, error);
-    if (error) throw RunError(fmt::format("cannot write {}: {}", path.string(), error.message()));
+    if (error) throw RunError(fmt::format("cannot write {}: {}", path.string(), reason_of(error)));
     return file;
 }
 

@@ -8,6 +8,7 @@
 #include "archive/joined_pieces.h"
 #include "archive/xml.h"
 #include "base/csv_file.h"
+#include "base/json_text.h"
 #include "base/number.h"
 #include "base/text.h"
 
@@ -122,7 +123,7 @@ std::string read_record(const fs::path& folder) {
 }
 
 Json parse_record(const fs::path& folder, const std::string& record) {
-    Json run = Json::parse(record, nullptr, false);
+    Json run = read_json<Json>(record);
     if (!run.is_object() || !run.contains("exit")) {
         throw UserError(fmt::format("{} is not what a run writes", (folder / "run.json").string()));
     }

@@ -3,6 +3,7 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
 
+#include "base/folder.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@ namespace espalier {
 namespace {
 
 void require_written(const std::filesystem::path& path, const std::error_code& error) {
-    if (error) throw RunError(fmt::format("cannot write {}: {}", path.string(), error.message()));
+    if (error) throw RunError(fmt::format("cannot write {}: {}", path.string(), reason_of(error)));
 }
 
 }  // namespace

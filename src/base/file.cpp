@@ -129,11 +129,12 @@ void write_private_text(const fs::path& path, std::string_view text) {
 void write_file(const fs::path& path, const std::function<bool(const fs::path&)>& write) {
     const fs::path temporary = temporary_beside(path);
     std::error_code ignored;
+    fs::remove(temporary, ignored);  // in a folder from elsewhere it may be a link
     try {
         if (!write(temporary)) fail_to_write(path, likely_reason(path.has_parent_path() ? path.parent_path() : "."));
     } catch (const std::system_error& error) {
         fs::remove(temporary, ignored);
-        fail_to_write(path, error.code().message());
+        fail_to_write(path, reason_of(error.code()));
     } catch (...) {
         fs::remove(temporary, ignored);
         throw;
@@ -155,7 +156,7 @@ FolderLock::FolderLock(const fs::path& folder) {
     descriptor_ = platform::lock(folder / ".lock", error);
     if (!error) return;
     if (error != std::errc::operation_would_block) {
-        throw RunError(fmt::format("cannot write into {}: {}", folder.string(), error.message()));
+        throw RunError(fmt::format("cannot write {}: {}", (folder / ".lock").string(), reason_of(error)));
     }
     throw UserError(
         fmt::format("another run is writing into {}; choose another folder with --output, "

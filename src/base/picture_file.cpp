@@ -5,7 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <string>
+#include <string_view>
 
 namespace espalier {
 namespace {
@@ -108,6 +111,28 @@ Picture read_targa(const PictureBytes& bytes) {
     return image;
 }
 
+std::string head_of(const std::filesystem::path& path) {
+    std::string head(32, '\0');
+    std::ifstream in(path, std::ios::binary);
+    in.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(in.gcount()));
+    return head;
+}
+
+std::string reason_of_png(std::string_view head) {
+    constexpr std::size_t header = png_signature.size() + 8, end = header + 10;
+    if (head.size() < end) return "it ends too early";
+    const auto number = [&](std::size_t at) {
+        std::uint64_t value = 0;
+        for (std::size_t i = 0; i < 4; ++i) value = 256 * value + static_cast<std::uint8_t>(head[at + i]);
+        return value;
+    };
+    const std::uint64_t width = number(header), height = number(header + 4);
+    if (width > 0 && height > 0 && width <= most_pixels_of_texture / height) return "";
+    return fmt::format("it says that it is {} x {} pixels large, and may have {}", width, height,
+                       most_pixels_of_texture);
+}
+
 }  // namespace
 
 const Picture::Colour& Picture::at(double u, double v) const {
@@ -123,8 +148,21 @@ Picture read_picture(const std::filesystem::path& path) {
     const PictureBytes bytes(path);
     if (name.ends_with("rgb")) return read_sgi(bytes);
     if (name.ends_with("tga")) return read_targa(bytes);
-    if (name.ends_with("png")) return from_png(read_png(bytes));
-    bytes.fail("the name of a picture must end in rgb, tga or png");
+    if (name.ends_with("png") || bytes.begins_with(png_signature)) return from_png(read_png(bytes));
+    if (bytes.begins_with("BM")) return read_bitmap(bytes);
+    if (bytes.begins_with("P5") || bytes.begins_with("P6")) return read_pixmap(bytes);
+    bytes.fail("a picture is a file in SGI's (rgb), Targa's (tga), PNG's, Microsoft's (bmp) or netpbm's (ppm) format");
+}
+
+std::string reason_not_to_show(const std::filesystem::path& path) {
+    if (!is_readable(path)) return "it cannot be read";
+    const std::string name = path.filename().string(), head = head_of(path);
+    if (head.starts_with(png_signature)) return reason_of_png(head);
+    constexpr std::string_view kinds[] = {"BM", "P5", "P6", "\xff\xd8\xff", "II*", "MM"};
+    const bool is_known =
+        name.ends_with("tga") || (name.ends_with("rgb") && head.starts_with("\x01\xda")) ||
+        std::any_of(std::begin(kinds), std::end(kinds), [&](std::string_view kind) { return head.starts_with(kind); });
+    return is_known ? "" : "it is none of SGI's (.rgb), Targa's (.tga), PNG, JPEG, TIFF, BMP and PPM pictures";
 }
 
 }  // namespace espalier

@@ -1,10 +1,11 @@
-// Files of pictures, of the ground or on surfaces: SGI (.rgb), Targa (.tga) and PNG (.png) files.
+// Files of pictures, of the ground or on surfaces: SGI (.rgb), Targa (.tga), PNG, bitmaps (.bmp) and pixmaps (.ppm).
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace espalier {
@@ -20,8 +21,14 @@ struct Picture {
     const Colour& at(double u, double v) const;
 };
 
-/// The kind follows from the last three letters of the name. Throws UserError, naming the file, if it is no such
-/// picture, ends too early or has more than 2^28 pixels.
+/// SGI's and Targa's are known by the last three letters of the name, the others by their first bytes. Throws
+/// UserError, naming the file, if it is no such picture, ends too early or has more than 2^28 pixels.
 Picture read_picture(const std::filesystem::path& path);
+
+constexpr std::size_t most_pixels_of_texture = std::size_t{1} << 26;
+
+/// Why a file cannot be shown on a surface, as far as its first bytes tell: it is no picture of a kind that is read,
+/// which for surfaces may also be JPEG or TIFF, or is too large. Empty if nothing speaks against it.
+std::string reason_not_to_show(const std::filesystem::path& path);
 
 }  // namespace espalier

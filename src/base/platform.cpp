@@ -45,9 +45,9 @@ std::error_code error_unless(bool done) {
 }
 
 int flags_of(OpenFile::Mode mode) {
-    if (mode == OpenFile::Mode::create || mode == OpenFile::Mode::create_private)
-        return O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC;
-    return mode == OpenFile::Mode::append ? O_WRONLY | O_APPEND | O_CLOEXEC : O_WRONLY | O_CLOEXEC;
+    constexpr int always = O_WRONLY | O_CLOEXEC | O_NOFOLLOW;
+    if (mode == OpenFile::Mode::create || mode == OpenFile::Mode::create_private) return always | O_CREAT | O_TRUNC;
+    return mode == OpenFile::Mode::append ? always | O_APPEND : always;
 }
 
 /// No error, or the system's.
@@ -233,7 +233,7 @@ std::error_code denied(const fs::path& path, Access access) {
 }
 
 int lock(const fs::path& file, std::error_code& error) {
-    const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     error = error_unless(descriptor >= 0);
     if (error) return -1;
     error = try_lock(descriptor, LOCK_EX);
@@ -252,7 +252,7 @@ void unlock(int locked) {
 }
 
 bool is_locked(const fs::path& file) {
-    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
     if (descriptor < 0) return errno != ENOENT;
     const std::error_code error = try_lock(descriptor, LOCK_SH);
     ::close(descriptor);

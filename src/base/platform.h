@@ -18,7 +18,7 @@ namespace espalier::platform {
 // --- files ----------------------------------------------------------------------------------------------------------
 
 /// A file open for writing, or one end of a connection. Other programs that are started do not inherit it. Closes
-/// itself.
+/// itself. A symbolic link is never followed: to open one is the error too_many_symbolic_link_levels.
 class OpenFile {
 public:
     enum class Mode {
@@ -67,8 +67,8 @@ enum class Access { read, write, execute };
 /// Why this process may not use a file or folder so; no error if it may.
 std::error_code denied(const std::filesystem::path& path, Access access);
 
-/// Locks a file, which is made if need be, until `unlock` or the end of this process. Returns what `unlock` takes, or
-/// -1 with an error: operation_would_block if another process holds the lock.
+/// Locks a file, which is made if need be and must not be a symbolic link, until `unlock` or the end of this process.
+/// Returns what `unlock` takes, or -1 with an error: operation_would_block if another process holds the lock.
 int lock(const std::filesystem::path& file, std::error_code& error);
 void unlock(int locked);
 /// True while a process holds the lock of a file, and where that cannot be known.

@@ -45,6 +45,11 @@ HANDLE handle_of(int descriptor) {
     return reinterpret_cast<HANDLE>(::_get_osfhandle(descriptor));
 }
 
+bool is_link(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_symlink(fs::symlink_status(path, ignored));
+}
+
 int flags_of(OpenFile::Mode mode) {
     constexpr int always = _O_WRONLY | _O_BINARY | _O_NOINHERIT;
     if (mode == OpenFile::Mode::create || mode == OpenFile::Mode::create_private) return always | _O_CREAT | _O_TRUNC;
@@ -167,8 +172,12 @@ private:
 // --- files ----------------------------------------------------------------------------------------------------------
 
 OpenFile::OpenFile(const fs::path& path, Mode mode, std::error_code& error)
-    : number_(::_wopen(path.c_str(), flags_of(mode), _S_IREAD | _S_IWRITE)) {
-    error = is_open() ? std::error_code() : error_of_c();
+    : number_(is_link(path) ? -1 : ::_wopen(path.c_str(), flags_of(mode), _S_IREAD | _S_IWRITE)) {
+    if (is_open()) {
+        error.clear();
+    } else {
+        error = is_link(path) ? std::make_error_code(std::errc::too_many_symbolic_link_levels) : error_of_c();
+    }
 }
 
 OpenFile::~OpenFile() {
@@ -292,6 +301,10 @@ std::error_code denied(const fs::path& path, Access access) {
 }
 
 int lock(const fs::path& file, std::error_code& error) {
+    if (is_link(file)) {
+        error = std::make_error_code(std::errc::too_many_symbolic_link_levels);
+        return -1;
+    }
     const int descriptor = open_shared(file, GENERIC_READ | GENERIC_WRITE, OPEN_ALWAYS, error);
     if (error) return -1;
     error = try_lock(descriptor, LOCKFILE_EXCLUSIVE_LOCK);

@@ -1,13 +1,12 @@
 #include "base/picture_bytes.h"
 
+#include <algorithm>
 #include <csetjmp>
 #include <cstring>
 #include <png.h>
 
 namespace espalier {
 namespace {
-
-constexpr std::size_t signature_size = 8;
 
 /// What libpng asks for while it decodes. libpng reports errors by longjmp, so nothing here has a destructor.
 struct Source {
@@ -66,13 +65,6 @@ private:
     png_infop info_ = nullptr;
 };
 
-void require_readable(const PictureBytes& bytes, const Decoder& decoder) {
-    const int bits = png_get_bit_depth(decoder.png(), decoder.info());
-    if ((bits != 8 && bits != 16) || png_get_interlace_type(decoder.png(), decoder.info()) != PNG_INTERLACE_NONE) {
-        bytes.fail("only PNG pictures of 8 or 16 bits a channel that are not interlaced can be read");
-    }
-}
-
 /// Appends the pixels of a row; indices of a palette are looked up here, because libpng takes any index.
 class RowReader {
 public:
@@ -82,19 +74,21 @@ public:
           stored_(png_get_channels(decoder.png(), decoder.info())),
           has_palette_(png_get_color_type(decoder.png(), decoder.info()) == PNG_COLOR_TYPE_PALETTE) {
         decoder.guarded([&](png_structp png, png_infop info) {
-            if (has_palette_) png_get_PLTE(png, info, &palette_, &colours_);
+            if (!has_palette_) return;
+            png_get_PLTE(png, info, &palette_, &colours_);
+            png_get_tRNS(png, info, &opacities_, &given_opacities_, nullptr);
         });
     }
 
-    void add(const std::vector<png_byte>& row) {
+    void add(const png_byte* row, std::size_t size) {
         const std::size_t sample_size = picture_.greatest > 255 ? 2 : 1;
-        for (std::size_t at = 0; at < row.size(); at += stored_ * sample_size) {
+        for (std::size_t at = 0; at < size; at += stored_ * sample_size) {
             if (has_palette_) {
                 add_colour(row[at]);
                 continue;
             }
             for (std::size_t k = 0; k < picture_.channels; ++k) {
-                const png_byte* sample = row.data() + at + k * sample_size;
+                const png_byte* sample = row + at + k * sample_size;
                 const int value = sample_size == 2 ? 256 * sample[0] + sample[1] : sample[0];
                 picture_.samples.push_back(static_cast<std::uint16_t>(value));
             }
@@ -107,6 +101,7 @@ private:
         for (const png_byte channel : {palette_[index].red, palette_[index].green, palette_[index].blue}) {
             picture_.samples.push_back(channel);
         }
+        if (picture_.channels == 4) picture_.samples.push_back(index < given_opacities_ ? opacities_[index] : 255);
     }
 
     const PictureBytes& bytes_;
@@ -114,29 +109,65 @@ private:
     std::size_t stored_;
     bool has_palette_;
     png_colorp palette_ = nullptr;
-    int colours_ = 0;
+    png_bytep opacities_ = nullptr;
+    int colours_ = 0, given_opacities_ = 0;
 };
+
+/// Reads the head, and asks for channels of 8 or 16 bits. Returns how often the rows must be read: more than once if
+/// they are interlaced.
+int begin(Decoder& decoder, Opacity opacity, PngPicture& picture) {
+    int passes = 1;
+    decoder.guarded([&](png_structp png, png_infop info) {
+        png_read_info(png, info);
+        const int colour_type = png_get_color_type(png, info);
+        const bool has_palette = colour_type == PNG_COLOR_TYPE_PALETTE;
+        const bool has_key = png_get_valid(png, info, PNG_INFO_tRNS) != 0;
+        if (png_get_bit_depth(png, info) < 8) png_set_packing(png);
+        if (colour_type == PNG_COLOR_TYPE_GRAY) png_set_expand_gray_1_2_4_to_8(png);
+        if (!has_palette && has_key && opacity == Opacity::kept) png_set_tRNS_to_alpha(png);
+        passes = png_set_interlace_handling(png);
+        png_read_update_info(png, info);
+        const bool has_opacity = has_palette ? has_key : (png_get_color_type(png, info) & PNG_COLOR_MASK_ALPHA) != 0;
+        picture.width = png_get_image_width(png, info);
+        picture.height = png_get_image_height(png, info);
+        picture.channels =
+            (colour_type & PNG_COLOR_MASK_COLOR ? 3u : 1u) + (has_opacity && opacity == Opacity::kept ? 1u : 0u);
+        picture.greatest = png_get_bit_depth(png, info) == 16 ? 65535 : 255;
+    });
+    return passes;
+}
+
+constexpr std::size_t most_packed = 1100;  // zlib packs 1032 bytes into one at most
+
+/// As the header says, from 1 to 64.
+std::size_t bits_of_pixel(const PictureBytes& bytes) {
+    constexpr std::size_t depth = 24, colour_type = 25;
+    const unsigned type = bytes.at(colour_type);
+    const bool has_colours = (type & PNG_COLOR_MASK_COLOR) && !(type & PNG_COLOR_MASK_PALETTE);
+    const std::size_t channels = (has_colours ? 3u : 1u) + (type & PNG_COLOR_MASK_ALPHA ? 1u : 0u);
+    return std::clamp<std::size_t>(bytes.at(depth) * channels, 1, 64);
+}
 
 }  // namespace
 
-PngPicture read_png(const PictureBytes& bytes) {
-    if (!bytes.begins_with(std::string_view("\x89PNG\r\n\x1a\n", signature_size))) bytes.fail("this is no PNG picture");
+PngPicture read_png(const PictureBytes& bytes, Opacity opacity, std::size_t most) {
+    if (!bytes.begins_with(png_signature)) bytes.fail("this is no PNG picture");
     // Before libpng, whose messages do not say the size.
-    constexpr std::size_t header = signature_size + 8;
-    bytes.require_size(bytes.big4(header), bytes.big4(header + 4), 1100);  // zlib packs 1032 bytes into one at most
+    constexpr std::size_t header = png_signature.size() + 8;
+    bytes.require_size(bytes.big4(header), bytes.big4(header + 4), most_packed * 8 / bits_of_pixel(bytes), most);
     Decoder decoder(bytes);
-    decoder.guarded([](png_structp png, png_infop info) { png_read_info(png, info); });
-    require_readable(bytes, decoder);
     PngPicture picture;
-    picture.width = png_get_image_width(decoder.png(), decoder.info());
-    picture.height = png_get_image_height(decoder.png(), decoder.info());
-    picture.channels = png_get_color_type(decoder.png(), decoder.info()) & PNG_COLOR_MASK_COLOR ? 3 : 1;
-    picture.greatest = png_get_bit_depth(decoder.png(), decoder.info()) == 16 ? 65535 : 255;
+    const int passes = begin(decoder, opacity, picture);
     RowReader rows(bytes, decoder, picture);
-    std::vector<png_byte> row(png_get_rowbytes(decoder.png(), decoder.info()));
-    for (std::size_t y = 0; y < picture.height; ++y) {
-        decoder.guarded([&](png_structp png, png_infop) { png_read_row(png, row.data(), nullptr); });
-        rows.add(row);
+    const std::size_t size = png_get_rowbytes(decoder.png(), decoder.info());
+    // The rows of an interlaced picture are complete after the last pass.
+    std::vector<png_byte> read(passes > 1 ? size * picture.height : size);
+    for (int pass = 1; pass <= passes; ++pass) {
+        for (std::size_t y = 0; y < picture.height; ++y) {
+            png_byte* const row = read.data() + (passes > 1 ? y * size : 0);
+            decoder.guarded([&](png_structp png, png_infop) { png_read_row(png, row, nullptr); });
+            if (pass == passes) rows.add(row, size);
+        }
     }
     decoder.guarded([](png_structp png, png_infop) { png_read_end(png, nullptr); });
     return picture;

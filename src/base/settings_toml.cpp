@@ -2,6 +2,7 @@
 #include "espalier/base/file.h"
 
 #include "base/text.h"
+#include "base/toml_depth.h"
 #include "settings_node.h"
 
 #include <fmt/format.h>
@@ -72,9 +73,18 @@ std::string line_of(std::string_view text, std::size_t number) {
     return line;
 }
 
+// All that toml++ ever reads comes this way.
+toml::table parsed(std::string_view text, const Origin& origin) {
+    if (std::optional<Place> place = deeper_than_toml_may_be(text)) {
+        place->file = origin.name;
+        throw UserError(*place, fmt::format("keys, tables and arrays are nested more than {} deep", deepest_toml));
+    }
+    return toml::parse(text, origin.name);
+}
+
 std::shared_ptr<Node> parse(std::string_view text, const Origin& origin) {
     try {
-        return convert(toml::parse(text, origin.name), origin);
+        return convert(parsed(text, origin), origin);
     } catch (const toml::parse_error& error) {
         throw UserError(place_of(error.source(), origin), std::string(error.description()),
                         line_of(text, error.source().begin.line));
@@ -84,7 +94,7 @@ std::shared_ptr<Node> parse(std::string_view text, const Origin& origin) {
 // A value given on the command line: TOML if it reads as such, text otherwise.
 std::shared_ptr<Node> parse_value(std::string_view value, const Origin& origin) {
     try {
-        const toml::table table = toml::parse("value = " + std::string(value), origin.name);
+        const toml::table table = parsed("value = " + std::string(value), origin);
         if (table.size() == 1) return convert(*table.get("value"), origin);
     } catch (const toml::parse_error&) {
     }
@@ -164,6 +174,9 @@ Settings Settings::parse_toml(std::string_view text, const std::string& name, co
 void Settings::set(std::string_view dotted_key, std::string_view value) {
     const Place place{"--set " + std::string(dotted_key), 0, 0};
     const std::vector<std::string> parts = split(dotted_key);
+    if (parts.size() > deepest_toml) {
+        throw UserError(place, fmt::format("the key has {} parts, and may have {}", parts.size(), deepest_toml));
+    }
     for (const std::string& part : parts) {
         if (part.empty()) throw UserError(place, "a key such as simulation.steps is expected");
     }

@@ -2,6 +2,7 @@
 
 #include "espalier/base/error.h"
 
+#include "base/folder.h"
 #include "catch.h"
 #include "small_disk.h"
 #include "temporary_folder.h"
@@ -104,4 +105,24 @@ TEST_CASE("a text of one's own is for its owner alone", "[base]") {
     write_private_text(file, "new");
     CHECK(read_text(file) == "new");
     CHECK((fs::status(file).permissions() & fs::perms::all) == (fs::perms::owner_read | fs::perms::owner_write));
+}
+
+TEST_CASE("no link is followed for writing: neither the file, nor what is written beside it, nor the lock", "[base]") {
+    const TemporaryFolder folder, elsewhere;
+    const fs::path victim = elsewhere.write("victim", "theirs");
+    const fs::path file = folder.path() / "a.csv";
+    fs::create_symlink(victim, file);
+    CHECK_THROWS_WITH(append_text(file, "ours"), Contains("a.csv: it is a link, which is not followed for writing"));
+    const fs::path beside = folder.path() / (".a." + std::to_string(getpid()) + ".part.csv");
+    fs::create_symlink(victim, beside);
+    write_text(file, "ours");
+    CHECK(read_text(file) == "ours");
+    CHECK_FALSE(fs::is_symlink(file));
+    CHECK_FALSE(fs::exists(fs::symlink_status(beside)));
+    append_text(file, ", too");
+    CHECK(read_text(file) == "ours, too");
+    fs::create_symlink(elsewhere.path() / "new", folder.path() / ".lock");
+    CHECK_THROWS_WITH(FolderLock(folder.path()), Contains(".lock: it is a link"));
+    CHECK_FALSE(fs::exists(elsewhere.path() / "new"));
+    CHECK(read_text(victim) == "theirs");
 }

@@ -11,6 +11,7 @@
 using namespace espalier;
 using namespace espalier::language;
 using namespace espalier::test;
+using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
 namespace {
@@ -162,4 +163,38 @@ TEST_CASE("open files and what was written go through a checkpoint", "[language]
     second.string = first.string;
     CHECK(second.steps(2).text() == "A(5)");
     CHECK(folders.written("log.txt") == "1;2;3;4;5;");
+}
+
+TEST_CASE("what a model writes follows no link out of its folder, also one that leads to nothing yet", "[language]") {
+    const Folders folders;
+    const fs::path elsewhere = folders.root / "elsewhere";
+    fs::create_directories(elsewhere);
+    const std::string writes = with_start("f = fopen(\"log.txt\", \"w\"); fprintf(f, \"1\"); fclose(f);\n", "A");
+    fs::create_directory_symlink(elsewhere, folders.output);
+    CHECK_THROWS_WITH(Grown(writes, folders.settings()), Contains("out is a link, which is not followed"));
+    fs::remove(folders.output);
+    fs::create_directories(folders.output);
+    fs::create_symlink(elsewhere / "new.txt", folders.output / "log.txt");
+    CHECK_THROWS_WITH(Grown(writes, folders.settings()), Contains("a link that leads out of the model's folder"));
+    CHECK(fs::is_empty(elsewhere));
+    fs::remove(folders.output / "log.txt");
+    CHECK_NOTHROW(Grown(writes, folders.settings()));
+    CHECK(folders.written("log.txt") == "1");
+}
+
+TEST_CASE("a checkpoint names no file outside the model's own folders", "[language]") {
+    const Folders folders;
+    folders.give("data.txt", "1 2 3 4 5 6");
+    for (const std::string& mode : {std::string("w"), std::string("r")}) {
+        Grown plant("lsystem: 1\nStart: { f = fopen(\"data.txt\", \"" + mode + "\"); }\naxiom: A\nendlsystem\n",
+                    folders.settings());
+        std::ostringstream out;
+        plant.derivation.save(out);
+        for (const std::string& name : {std::string("../a.txt"), std::string("/tmp/a.b")}) {
+            std::string bytes = out.str();
+            for (std::size_t at = 0; (at = bytes.find("data.txt")) != std::string::npos;) bytes.replace(at, 8, name);
+            std::istringstream in(bytes);
+            CHECK_THROWS_WITH(plant.derivation.restore(in), Contains("the checkpoint is damaged: fopen: '" + name));
+        }
+    }
 }

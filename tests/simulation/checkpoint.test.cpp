@@ -119,3 +119,35 @@ TEST_CASE_METHOD(Saved, "a checkpoint that is cut short or of something else is 
         CHECK_THROWS_AS(other.restore(in), std::runtime_error);
     }
 }
+
+TEST_CASE_METHOD(Saved, "a checkpoint whose strings no derivation could have left is refused", "[simulation]") {
+    World world(scene);
+    world.start();
+    world.step();
+    const std::string bytes = saved(world);
+    const ModuleString& string = world.string(0);
+    const std::string letters(reinterpret_cast<const char*>(string.letters.data()), string.size() * sizeof(LetterId));
+    const std::size_t at = bytes.find(letters);
+    REQUIRE(at != std::string::npos);
+    const auto with_first_letter = [&](LetterId letter) {
+        std::string changed = bytes;
+        std::memcpy(changed.data() + at, &letter, sizeof letter);
+        return changed;
+    };
+    const auto refusal = [&](const std::string& checkpoint) {
+        World other(scene);
+        std::istringstream in(checkpoint);
+        try {
+            other.restore(in);
+        } catch (const RunError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const Alphabet& alphabet = world.model(0).alphabet;
+    CHECK(refusal(bytes).empty());
+    CHECK(refusal(with_first_letter(static_cast<LetterId>(alphabet.size()))) ==
+          "the checkpoint's strings are of another model");
+    REQUIRE(alphabet.arity(string.letters[0]) > 0);
+    CHECK(refusal(with_first_letter(Alphabet::open_bracket)) == "the checkpoint's strings are damaged");
+}

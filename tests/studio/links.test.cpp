@@ -253,3 +253,24 @@ TEST_CASE("unsaved work is kept for its owner alone", "[studio]") {
     CHECK((fs::status(studio.options.state).permissions() & fs::perms::all) ==
           (fs::perms::owner_read | fs::perms::owner_write));
 }
+
+TEST_CASE("a linked file in the opened folder is not opened, though it is offered, and not shared", "[studio]") {
+    Pasted studio;
+    const TemporaryFolder elsewhere;
+    const fs::path secret = elsewhere.write("secret.l", std::string("/* password */\n") + stalk);
+    const fs::path link = studio.folder.path() / "harmless.l";
+    fs::create_symlink(secret, link);
+    studio.options.library = [&] {
+        return std::vector<espalier::studio::LibraryEntry>{{link, "harmless", "", "", {}, /*is_own=*/true}};
+    };
+    CHECK_THAT(studio.ask({{"do", "open"}, {"path", link.string()}}).value("error", ""), Contains("is not below"));
+    CHECK_FALSE(studio.has_told_secret());
+
+    // A model may read it, as it may read what else it names; a link to the model does not carry it along.
+    studio.folder.write("includes.l", std::string("#include \"harmless.l\"\n"));
+    studio.ask({{"do", "open"}, {"path", (studio.folder.path() / "includes.l").string()}});
+    studio.wait_until_grown();
+    const Json refused = studio.ask({{"do", "share"}});
+    CHECK_THAT(refused.value("error", ""), Contains("harmless.l is a link that leads out of"));
+    CHECK_FALSE(refused.contains("files"));
+}

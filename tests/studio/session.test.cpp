@@ -2,9 +2,11 @@
 #include "base/base64.h"
 #include "session_fixture.h"
 
+#include <algorithm>
 #include <chrono>
 
 using namespace studio_test;
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -385,6 +387,81 @@ TEST_CASE("unsaved work is there again after the program was killed", "[studio]"
     page.texts.clear();
     studio.begin();
     CHECK(page.last("message")["severity"] == "warning");
+}
+
+TEST_CASE("a document that the studio ended at while opening it is not opened again by itself", "[studio]") {
+    OpenStudio studio(tree);
+    studio.options.state = studio.scratch.path() / "state.json";
+    const fs::path mark = studio.scratch.path() / "state.json.opening";
+    std::string marked;
+    const auto read = studio.options.read;
+    studio.options.read = [&](const espalier::studio::Opened& opened) {
+        marked = text_of(mark);
+        return read(opened);
+    };
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    CHECK(marked == studio.file.string());
+    CHECK_FALSE(fs::exists(mark));
+    studio.change({{"settings", {{"LENGTH", "9"}}}, {"label", "LENGTH 9"}});
+    studio.wait_until_grown();
+    studio.session->tick();
+    studio.session.reset();
+    CHECK_FALSE(fs::exists(mark));
+
+    const auto restart = [&] {
+        studio.session.reset();
+        studio.scratch.write("state.json.opening", studio.file.string());
+        page.texts.clear();
+        marked.clear();
+        studio.begin();
+    };
+    SECTION("nothing is open then, and undo opens it with its unsaved texts") {
+        studio.options.opened = {};
+        restart();
+        CHECK(page.last("document")["path"] == "");
+        CHECK(page.last("message")["severity"] == "warning");
+        CHECK(page.last("message")["text"].get<std::string>().find("plant.l") != std::string::npos);
+        CHECK(marked.empty());
+        studio.ask({{"do", "undo"}});
+        studio.wait_until_grown();
+        CHECK(page.last("document")["texts"][0]["changed"] == true);
+        CHECK(marked == studio.file.string());
+    }
+    SECTION("nor is it opened as what a studio opens where nothing was named") {
+        studio.options.is_named = false;
+        restart();
+        CHECK(page.last("document")["path"] == "");
+    }
+    SECTION("who names it gets what is on disk") {
+        restart();
+        studio.wait_until_grown();
+        CHECK(page.last("document")["path"] == studio.file.string());
+        CHECK(page.last("document")["texts"][0]["content"] == tree);
+        CHECK(page.last("document")["texts"][0]["changed"] == false);
+    }
+    SECTION("a mark of another document says nothing of this one") {
+        studio.session.reset();
+        studio.scratch.write("state.json.opening", "/another/plant.l");
+        page.texts.clear();
+        studio.begin();
+        studio.wait_until_grown();
+        CHECK(page.last("document")["texts"][0]["changed"] == true);
+    }
+}
+
+TEST_CASE("half a character in a text is answered, and becomes the sign for a lost one", "[studio]") {
+    OpenStudio studio(tree);
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    const std::string text = "/* \\ud83c\\udf33 \\ud83c */\\n";
+    studio.session->receive(page, R"({"do": "change", "id": 901, "label": "\ud83c", "texts": {")" +
+                                      studio.file.string() + "\": \"" + text + "\"}}");
+    const auto replied = std::find_if(page.texts.begin(), page.texts.end(),
+                                      [](const Json& one) { return one.contains("reply") && one["reply"] == 901; });
+    REQUIRE(replied != page.texts.end());
+    CHECK_FALSE(replied->contains("error"));
+    CHECK(page.last("document")["texts"][0]["content"] == "/* \xf0\x9f\x8c\xb3 \xef\xbf\xbd */\n");
 }
 
 TEST_CASE("what growths posted before a studio ended is not done afterwards", "[studio]") {

@@ -1,4 +1,5 @@
 // What pages are told of the sun and the sky of a scene, step by step.
+#include "environment/sky/scene_sky.h"
 #include "environment/sky/sun.h"
 #include "session_fixture.h"
 
@@ -124,4 +125,19 @@ TEST_CASE("of a scene without a sky a page is told nothing of one", "[studio][sk
     ListeningPage& page = studio.begin();
     studio.wait_until_grown();
     CHECK(page.last("sky").is_null());
+}
+
+TEST_CASE("a run.json that is cut, nested or mixed up has no sky, or says that it is not what a run writes",
+          "[studio][sky]") {
+    const TemporaryFolder run;
+    const auto sky = [&](const std::string& record) {
+        run.write("run.json", record);
+        return espalier::environment::sky_of_run(run.path());
+    };
+    CHECK_FALSE(sky("{"));
+    CHECK_FALSE(sky("[1]"));
+    CHECK_FALSE(sky(R"({"exit": "done"})"));
+    CHECK_FALSE(sky(R"({"command": 3, "scene": [], "processes": {"light": {"sky": {}}}})"));
+    CHECK_FALSE(sky(std::string(65, '[') + std::string(65, ']')));
+    CHECK_THROWS_AS(sky(R"({"processes": {"light": {"sky": {"radiance": 7}}}})"), espalier::UserError);
 }

@@ -104,6 +104,38 @@ TEST_CASE("a folder that holds a timeline is refused unless it may be overwritte
     for (const std::string& name : halves) CHECK_FALSE(fs::exists(folder.path / name));
 }
 
+TEST_CASE("a timeline that is replaced or goes on follows no link, neither to delete nor to write", "[timeline]") {
+    const RunFolder folder, elsewhere;
+    const HandmadePlant plant = branched_plant();
+    const fs::path run = folder.path / "run", theirs = elsewhere.path / "theirs";
+    std::ostringstream saved;
+    {
+        Timeline timeline(run, timeline_table(), 5);
+        record(timeline, 0, {&plant});
+        timeline.save(saved);
+    }
+    fs::create_directories(theirs);
+    fs::copy_file(run / "statistics.csv", theirs / "statistics.csv");
+    write_file_at(theirs / "0001.vtp", "theirs");
+    const std::string table_of_others = bytes_of(theirs / "statistics.csv") + "theirs\n";
+    write_file_at(theirs / "statistics.csv", table_of_others);
+    fs::remove_all(run / "plants");
+    fs::create_directory_symlink(theirs, run / "plants");
+    {
+        Timeline timeline(run, timeline_table(), 5, saved.str());
+        HandmadePlant grown = branched_plant();
+        grown.add_internode(Identity(4711), 0, 1, 7, 0, {0, 1, 0}, {0, 2, 0}, 1);
+        CHECK(error_text([&] { record(timeline, 1, {&grown}); }).find("plants is a link") != std::string::npos);
+    }
+    fs::remove(run / "statistics.csv");
+    fs::create_symlink(theirs / "statistics.csv", run / "statistics.csv");
+    const auto go_on = [&] { Timeline(run, timeline_table(), 5, saved.str()); };
+    CHECK(error_text(go_on).find("statistics.csv: it is a link, which is not followed") != std::string::npos);
+    const Timeline replaced(run, timeline_table(), 5, /*overwrite=*/true);
+    CHECK(bytes_of(theirs / "0001.vtp") == "theirs");
+    CHECK(bytes_of(theirs / "statistics.csv") == table_of_others);
+}
+
 TEST_CASE("a run.json of whomever is not replaced unasked", "[timeline]") {
     const RunFolder folder;
     write_file_at(folder.path / "run.json", "mine");

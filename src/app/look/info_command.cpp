@@ -90,7 +90,7 @@ Json read_run(const fs::path& folder) {
     if (!fs::exists(file)) {
         throw UserError(fmt::format("{} is not the folder of a run: it has no run.json", folder.string()));
     }
-    Json run = Json::parse(read_text(file), nullptr, false);
+    Json run = read_json<Json>(read_text(file));
     if (!run.is_object() || !run.contains("exit")) {
         throw UserError(fmt::format("{} was not written by a run", file.string()));
     }

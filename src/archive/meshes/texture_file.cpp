@@ -4,15 +4,13 @@
 #include "espalier/base/file.h"
 
 #include "archive/meshes/bark.h"
-#include "base/picture_file.h"
+#include "base/json_text.h"
+#include "base/picture_bytes.h"
 
 #include <nlohmann/json.hpp>
-#include <vtkBMPReader.h>
 #include <vtkImageData.h>
 #include <vtkJPEGReader.h>
 #include <vtkNew.h>
-#include <vtkPNGReader.h>
-#include <vtkPNMReader.h>
 #include <vtkTIFFReader.h>
 
 #include <algorithm>
@@ -23,49 +21,73 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// VTK reads no SGI pictures and few Targas.
-bool is_ours(const fs::path& path) {
-    const std::string name = path.filename().string();
-    return name.ends_with("rgb") || name.ends_with("tga");
+/// Rows from the lowest up, as VTK has them.
+vtkSmartPointer<vtkImageData> new_image(std::size_t width, std::size_t height, std::size_t channels) {
+    auto image = vtkSmartPointer<vtkImageData>::New();
+    image->SetDimensions(static_cast<int>(width), static_cast<int>(height), 1);
+    image->AllocateScalars(VTK_UNSIGNED_CHAR, static_cast<int>(channels));
+    return image;
 }
 
-vtkSmartPointer<vtkImageData> read_ours(const fs::path& path) {
-    try {
-        const Picture picture = read_picture(path);
-        if (picture.empty()) return nullptr;
-        auto image = vtkSmartPointer<vtkImageData>::New();
-        image->SetDimensions(static_cast<int>(picture.width), static_cast<int>(picture.height), 1);
-        image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-        auto* bytes = static_cast<std::uint8_t*>(image->GetScalarPointer());
-        for (const Picture::Colour& colour : picture.pixels) bytes = std::copy(colour.begin(), colour.end(), bytes);
-        return image;
-    } catch (const UserError&) {
-        return nullptr;
+vtkSmartPointer<vtkImageData> image_of(const PngPicture& picture) {
+    const auto image = new_image(picture.width, picture.height, picture.channels);
+    auto* bytes = static_cast<std::uint8_t*>(image->GetScalarPointer());
+    const std::size_t row = picture.width * picture.channels;
+    const auto as_byte = [&](std::uint16_t sample) {
+        return static_cast<std::uint8_t>(picture.greatest > 255 ? sample / 256 : sample);
+    };
+    for (std::size_t y = picture.height; y-- > 0;) {
+        const auto begin = picture.samples.begin() + static_cast<std::ptrdiff_t>(y * row);
+        bytes = std::transform(begin, begin + static_cast<std::ptrdiff_t>(row), bytes, as_byte);
     }
+    return image;
 }
 
+vtkSmartPointer<vtkImageData> image_of(const Picture& picture) {
+    const auto image = new_image(picture.width, picture.height, 3);
+    auto* bytes = static_cast<std::uint8_t*>(image->GetScalarPointer());
+    for (const Picture::Colour& colour : picture.pixels) bytes = std::copy(colour.begin(), colour.end(), bytes);
+    return image;
+}
+
+/// A reader of VTK for what we read not ourselves: its readers of PNG, bitmaps and pixmaps do not bear damaged files.
 template <class Reader>
 vtkSmartPointer<vtkImageData> read_by(const fs::path& path) {
     vtkNew<Reader> reader;
     if (!reader->CanReadFile(path.c_str())) return nullptr;
     reader->SetFileName(path.c_str());
+    reader->UpdateInformation();
+    int extent[6];
+    reader->GetDataExtent(extent);
+    double pixels = 1;
+    for (int axis = 0; axis < 3; ++axis) pixels *= double(extent[2 * axis + 1]) - extent[2 * axis] + 1;
+    if (!(pixels >= 1 && pixels <= double(most_pixels_of_texture))) return nullptr;
     reader->Update();
     if (reader->GetErrorCode() != 0 || reader->GetOutput()->GetNumberOfPoints() == 0) return nullptr;
     return reader->GetOutput();
 }
 
-// Not by vtkImageReader2Factory, whose reader of Targas takes anything for its own, loudly.
-vtkSmartPointer<vtkImageData> read_by_vtk(const fs::path& path) {
-    if (!is_readable(path)) return nullptr;
-    for (const auto read : {read_by<vtkPNGReader>, read_by<vtkJPEGReader>, read_by<vtkTIFFReader>,
-                            read_by<vtkBMPReader>, read_by<vtkPNMReader>}) {
-        if (const auto image = read(path)) return image;
-    }
-    return nullptr;
+/// VTK knows no names with ".rgb" and takes anything with ".tga" for its own.
+bool is_named_ours(const fs::path& path) {
+    const std::string name = path.filename().string();
+    return name.ends_with("rgb") || name.ends_with("tga");
 }
 
 vtkSmartPointer<vtkImageData> read_image(const fs::path& path) {
-    return is_ours(path) ? read_ours(path) : read_by_vtk(path);
+    try {
+        if (!is_named_ours(path)) {
+            const PictureBytes bytes(path);
+            if (bytes.begins_with(png_signature)) {
+                return image_of(read_png(bytes, Opacity::kept, most_pixels_of_texture));
+            }
+            if (bytes.begins_with("\xff\xd8")) return read_by<vtkJPEGReader>(path);
+            if (bytes.begins_with("II") || bytes.begins_with("MM")) return read_by<vtkTIFFReader>(path);
+        }
+        const Picture picture = read_picture(path);
+        return picture.empty() ? nullptr : image_of(picture);
+    } catch (const UserError&) {
+        return nullptr;
+    }
 }
 
 /// Where the scene of a run lies, and where the run was started; "" if it does not say so.
@@ -75,7 +97,7 @@ struct RunFolders {
 RunFolders folders_of(const fs::path& run) {
     const fs::path file = run / "run.json";
     if (run.empty() || !is_readable(file)) return {};
-    const auto json = nlohmann::json::parse(read_text(file), nullptr, /*allow_exceptions=*/false);
+    const auto json = read_json<nlohmann::json>(read_text(file));
     const auto text = [&](const char* table, const char* key) -> fs::path {
         const auto pointer = nlohmann::json::json_pointer(std::string("/") + table + "/" + key);
         return json.contains(pointer) && json[pointer].is_string() ? json[pointer].get<std::string>() : "";
@@ -94,9 +116,7 @@ std::vector<fs::path> places_of(const fs::path& run, const std::string& file) {
 
 /// Opacity is left out.
 vtkSmartPointer<vtkImageData> image_of(const OpacityPicture& picture) {
-    auto image = vtkSmartPointer<vtkImageData>::New();
-    image->SetDimensions(static_cast<int>(picture.width), static_cast<int>(picture.height), 1);
-    image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+    const auto image = new_image(picture.width, picture.height, 3);
     auto* bytes = static_cast<std::uint8_t*>(image->GetScalarPointer());
     for (std::size_t y = picture.height; y-- > 0;) {
         for (std::size_t x = 0; x < picture.width; ++x) bytes = std::copy_n(picture.at(x, y).begin(), 3, bytes);

@@ -15,8 +15,8 @@ namespace espalier::archive {
 
 /// The picture of a texture's file, as it is named from the scene of the run, from where the run was started, from the
 /// run's folder or from here: SGI (.rgb), Targa (.tga), PNG, JPEG, TIFF, BMP or
-/// PNM; or the colours of bark. Null if it is not there or is no picture: what wears it then has its own colour. Throws
-/// UserError for wrong settings of bark.
+/// PPM, of at most 2^26 pixels; or the colours of bark. Null if it is not there or is no picture: what wears it then
+/// has its own colour. Throws UserError for wrong settings of bark.
 vtkSmartPointer<vtkImageData> texture_image(const std::filesystem::path& run, const std::string& file);
 
 /// The relief of a texture.

@@ -4,6 +4,7 @@
 #include "espalier/base/file.h"
 #include "espalier/base/settings.h"
 
+#include "base/json_text.h"
 #include "environment/sky/daylight.h"
 
 #include <fmt/format.h>
@@ -40,9 +41,14 @@ double number_or(const Json& table, const char* key, double otherwise) {
     return table.contains(key) && table[key].is_number() ? table[key].get<double>() : otherwise;
 }
 
+// A run.json from elsewhere may hold anything.
+std::string text_or_none(const Json& run, const char* table, const char* key) {
+    const auto place = Json::json_pointer(fmt::format("/{}/{}", table, key));
+    return run.contains(place) && run[place].is_string() ? run[place].get<std::string>() : "";
+}
+
 fs::path folder_of_scene(const Json& run) {
-    const fs::path command = run["command"].value("folder", "");
-    return (command / run["scene"].value("path", "")).parent_path();
+    return (fs::path(text_or_none(run, "command", "folder")) / text_or_none(run, "scene", "path")).parent_path();
 }
 
 }  // namespace
@@ -77,6 +83,8 @@ std::optional<SceneSky> sky_of_processes(const Json& processes, double dt, const
             return SceneSky(std::move(light), kind_of(sky), number_or(process, "days", 1), dt);
         } catch (const UserError& error) {
             throw UserError(fmt::format("the sky of '{}' cannot be drawn: {}", name, error.what()));
+        } catch (const Json::exception&) {
+            throw UserError(fmt::format("the sky of '{}' is not what a run writes", name));
         }
     }
     return std::nullopt;
@@ -84,9 +92,10 @@ std::optional<SceneSky> sky_of_processes(const Json& processes, double dt, const
 
 std::optional<SceneSky> sky_of_run(const fs::path& run, const fs::path& root) {
     if (run.empty()) return std::nullopt;
-    const Json record = Json::parse(read_text(run / "run.json"));
+    const Json record = read_json<Json>(read_text(run / "run.json"));
     const fs::path folder = folder_of_scene(record);
-    return sky_of_processes(record.value("processes", Json::object()), number_or(record, "dt", 1),
+    if (!record.is_object() || !record.contains("processes")) return std::nullopt;
+    return sky_of_processes(record["processes"], number_or(record, "dt", 1),
                             root.empty() ? folder : root / folder.relative_path());
 }
 

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <system_error>
 
@@ -78,6 +77,7 @@ std::string ModelFiles::checked_name(const std::string& name, const Place& place
 std::shared_ptr<ModelFiles::Contents> ModelFiles::find(const std::string& name, const Place& place) {
     if (const auto known = written_.find(name); known != written_.end()) return known->second;
     for (const fs::path* folder : {&output_, &input_}) {
+        if (folder == &output_ && fs::is_symlink(output_)) continue;
         const std::optional<fs::path> path = path_below(*folder, name, place);
         std::optional<std::string> text = path ? text_of(*path, place) : std::nullopt;
         if (!text) continue;
@@ -200,24 +200,15 @@ int ModelFiles::scan(double handle, const ScanFormat& format, double* values) {
 void ModelFiles::write_out(const std::string& name, Contents& contents) {
     if (!contents.written || output_.empty()) return;
     if (contents.on_disk && contents.clean == contents.text.size()) return;
+    const fs::path path = output_ / name;
+    make_folder_below(output_.parent_path(), (output_.filename() / name).parent_path());
     std::error_code error;
-    fs::create_directories(output_, error);
-    std::optional<fs::path> path;
-    try {
-        path = path_below(output_, name, {});
-    } catch (const EvaluationError& refused) {
-        throw RunError(refused.what());
+    const bool appends = contents.on_disk && contents.clean > 0 && fs::file_size(path, error) == contents.clean;
+    if (appends) {
+        append_text(path, std::string_view(contents.text).substr(contents.clean));
+    } else {
+        write_text(path, contents.text);
     }
-    if (!path) throw RunError(fmt::format("cannot write {}", (output_ / name).string()));
-    fs::create_directories(path->parent_path(), error);
-    const bool appends = contents.on_disk && contents.clean > 0 && fs::file_size(*path, error) == contents.clean;
-    std::ofstream out(*path, std::ios::binary | (appends ? std::ios::app : std::ios::trunc));
-    const std::size_t from = appends ? contents.clean : 0;
-    out.write(contents.text.data() + from, static_cast<std::streamsize>(contents.text.size() - from));
-    out.close();
-    if (!out)
-        throw RunError(
-            fmt::format("cannot write {} (a full disk, or a folder that may not be written?)", path->string()));
     contents.on_disk = true;
     contents.clean = contents.text.size();
 }
@@ -258,8 +249,16 @@ void ModelFiles::restore(std::istream& in) {
     open_.clear();
     written_.clear();
     bytes_ = 0;
+    // A checkpoint may come from elsewhere: its names are those of a model.
+    const auto name_of_file = [&in] {
+        try {
+            return checked_name(get_text(in, longest_name), {});
+        } catch (const EvaluationError& refused) {
+            throw RunError(fmt::format("the checkpoint is damaged: {}", refused.what()));
+        }
+    };
     for (auto files = get<std::uint64_t>(in); files > 0; --files) {
-        const std::string name = get_text(in, longest_name);
+        const std::string name = name_of_file();
         auto contents = std::make_shared<Contents>();
         contents->text = get_text(in, most_file_bytes);
         contents->written = true;
@@ -269,13 +268,17 @@ void ModelFiles::restore(std::istream& in) {
     for (auto files = get<std::uint64_t>(in); files > 0; --files) {
         const auto handle = get<std::int32_t>(in);
         Open file;
-        file.name = get_text(in, longest_name);
+        file.name = name_of_file();
         file.position = get<std::uint64_t>(in);
         const auto flags = get<std::uint8_t>(in);
         file.reads = flags & 1;
         file.writes = flags & 2;
         file.appends = flags & 4;
-        file.contents = find(file.name, {});
+        try {
+            file.contents = find(file.name, {});
+        } catch (const EvaluationError& refused) {
+            throw RunError(refused.what());
+        }
         if (!file.contents) throw RunError(fmt::format("the checkpoint reads the file '{}', which is gone", file.name));
         open_[handle] = std::move(file);
     }

@@ -3,6 +3,7 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
 
+#include "base/json_text.h"
 #include "simulation/run/run_inputs.h"
 #include "simulation/run/written_files.h"
 
@@ -80,7 +81,7 @@ RecordedCommand read_command(const fs::path& run) {
         throw UserError(fmt::format("{} holds no run: there is no run.json in it", run.string()));
     }
     try {
-        const Json json = Json::parse(read_text(file));
+        const Json json = read_json<Json>(read_text(file));
         RecordedCommand command;
         command.version = json.at("version").get<std::string>();
         command.exit = json.at("exit").get<std::string>();

@@ -3,6 +3,9 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
 
+#include "base/folder.h"
+#include "base/json_text.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -16,7 +19,7 @@ fs::path files_folder_of(const fs::path& output) {
 
 std::set<fs::path> files_below(const fs::path& folder) {
     std::set<fs::path> files;
-    if (!fs::is_directory(folder)) return files;
+    if (!is_folder_itself(folder)) return files;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
         if (entry.is_regular_file()) files.insert(entry.path().lexically_relative(folder));
     }
@@ -26,7 +29,7 @@ std::set<fs::path> files_below(const fs::path& folder) {
 std::optional<std::set<fs::path>> files_before_run(const fs::path& output) {
     std::error_code error;
     if (!fs::is_regular_file(output / "run.json", error)) return std::nullopt;
-    const auto run = nlohmann::json::parse(read_text(output / "run.json"), nullptr, false);
+    const auto run = read_json<nlohmann::json>(read_text(output / "run.json"));
     if (!run.is_object() || !run.contains("files_before") || !run["files_before"].is_array()) return std::nullopt;
     std::set<fs::path> files;
     for (const auto& name : run["files_before"]) {

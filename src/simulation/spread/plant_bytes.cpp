@@ -164,6 +164,7 @@ void put_state(std::ostream& out, const GrowingPlant& plant) {
 void get_state(std::istream& in, GrowingPlant& plant, std::size_t memory) {
     plant.derivation.restore(in);
     restore_string(*plant.string, memory, in);
+    require_modules_of(plant.model().alphabet, *plant.string);
     plant.note_derived();
     plant.memory = get<PlantMemory>(in);
 }

@@ -2,27 +2,15 @@
 
 #include "base/bytes.h"
 
-#include <algorithm>
-
 namespace espalier::simulation {
 namespace {
 
-// In pieces: a damaged length must not ask for memory that its bytes do not fill.
 template <class T>
 void restore_column(Column<T>& column, std::size_t& memory, std::istream& in) {
-    constexpr std::size_t piece = std::size_t(1) << 20;
     const auto size = get<std::uint64_t>(in);
     if (size > memory / sizeof(T)) throw RunError("the checkpoint's strings take more than --memory allows");
     memory -= size * sizeof(T);
-    column.clear();
-    while (column.size() < size) {
-        const std::size_t begin = column.size(), more = std::min<std::size_t>(piece, size - begin);
-        column.resize(begin + more);
-        const auto bytes = static_cast<std::streamsize>(more * sizeof(T));
-        if (!in.read(reinterpret_cast<char*>(column.data() + begin), bytes)) {
-            throw RunError("the checkpoint ends too early");
-        }
-    }
+    if (!read_claimed(in, column, size)) throw RunError("the checkpoint ends too early");
 }
 
 void save_siblings(const SiblingTable& siblings, std::ostream& out) {
@@ -54,6 +42,18 @@ void restore_string(ModuleString& string, std::size_t memory, std::istream& in) 
     restore_siblings(string.siblings, memory, in);
     for (const Birth& birth : string.births) {
         if (birth.siblings >= string.siblings.size()) throw RunError("the checkpoint's lineages are damaged");
+    }
+}
+
+void require_modules_of(const lsystem::Alphabet& alphabet, const ModuleString& string) {
+    std::size_t parameters = 0;
+    for (const LetterId letter : string.letters) {
+        if (letter >= alphabet.size()) throw RunError("the checkpoint's strings are of another model");
+        parameters += static_cast<std::size_t>(alphabet.arity(letter));
+    }
+    const bool has_births = string.births.empty() || string.births.size() == string.letters.size();
+    if (parameters != string.parameters.size() || !has_births) {
+        throw RunError("the checkpoint's strings are damaged");
     }
 }
 

@@ -115,6 +115,13 @@ fs::path common_folder(const fs::path& main, const std::map<fs::path, std::strin
 
 SharedModel shared_files(const fs::path& main, const std::map<fs::path, std::string>& files, const fs::path& library) {
     const fs::path root = common_folder(main, files);
+    for (const auto& [file, bytes] : files) {
+        std::error_code unknown;
+        if (resolved_below(file, root, unknown).empty()) {
+            throw UserError(fmt::format("{} is a link that leads out of {}: put the file itself there", file.string(),
+                                        root.string()));
+        }
+    }
     SharedModel shared;
     shared.main = main.lexically_relative(root).generic_string();
     for (const auto& [file, bytes] : files) shared.files.push_back(shared_file(file, bytes, root, library));

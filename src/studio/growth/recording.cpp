@@ -2,6 +2,7 @@
 
 #include "espalier/base/file.h"
 
+#include "base/json_text.h"
 #include "simulation/run/recorded_command.h"
 
 #include <fmt/format.h>
@@ -59,7 +60,7 @@ bool has_lost_files(const fs::path& main, const RecordedCommand& command) {
 // written below `scratch`. Returns the folder below which the inputs lie by their absolute paths; empty: the root.
 fs::path find_source(const fs::path& folder, const fs::path& scratch, GrowthStart& start) {
     const RecordedCommand command = read_command(folder);
-    const Json json = Json::parse(read_text(folder / "run.json"));
+    const Json json = read_json<Json>(read_text(folder / "run.json"));
     std::optional<fs::path> main = main_file(command);
     if (!main) return {};
     fs::path root;

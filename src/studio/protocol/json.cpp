@@ -1,5 +1,6 @@
 #include "studio/protocol/json.h"
 
+#include "base/json_text.h"
 #include "studio/protocol/description.h"
 
 #include <fmt/ranges.h>
@@ -30,7 +31,7 @@ Json read_request(const std::string& text) {
     };
     Json request;
     try {
-        request = Json::parse(text, require_shallow);
+        request = Json::parse(with_whole_surrogates(text), require_shallow);
     } catch (const Json::exception& error) {
         throw UserError(fmt::format("the request is no JSON: {}", error.what()));
     }

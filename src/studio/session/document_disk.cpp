@@ -22,19 +22,74 @@ constexpr std::chrono::milliseconds between_looks(500);
 
 }  // namespace
 
+DocumentDisk::~DocumentDisk() {
+    note_opened();
+}
+
 void DocumentDisk::restore() {
     if (!options_.state.empty() && fs::exists(options_.state)) restore_kept();
-    if (options_.opened.path.empty() || (!options_.is_named && document_.is_open())) return;
+    const bool is_suspect = document_.is_open() && ended_while_opening(document_.path());
+    note_opened();
     Opened opened = options_.opened;
-    opened.path = fs::absolute(opened.path).lexically_normal();
-    if (document_.path() == opened.path) return;
-    watch_.forget();
+    if (!opened.path.empty()) opened.path = fs::absolute(opened.path).lexically_normal();
+    if (is_suspect) {
+        leave_closed(opened);
+    } else if (!opened.path.empty() && (options_.is_named || !document_.is_open()) && document_.path() != opened.path) {
+        watch_.forget();
+        open(opened);
+    }
+}
+
+void DocumentDisk::open(const Opened& opened) {
     document_.history().change({opened, {}}, fmt::format("open {}", opened.path.filename().string()), false);
+}
+
+// It lies one step back in the history, with its unsaved texts: the same would end the program again at every start.
+void DocumentDisk::leave_closed(const Opened& opened) {
+    const std::string name = document_.path().filename().string();
+    pages_.notify("warning", fmt::format("The studio ended while it was opening {}, which it therefore does not open "
+                                         "again by itself. Undo opens it, with its unsaved texts.",
+                                         name));
+    watch_.forget();
+    if (opened.path.empty() || (!options_.is_named && opened.path == document_.path())) {
+        document_.history().change({}, fmt::format("leave {} closed", name), false);
+    } else {
+        open(opened);
+    }
+}
+
+// Beside the kept state, which is much longer and written now and then.
+fs::path DocumentDisk::mark_of_opening() const {
+    return fs::path(options_.state).concat(".opening");
+}
+
+bool DocumentDisk::ended_while_opening(const fs::path& document) const {
+    try {
+        return !options_.state.empty() && is_readable(mark_of_opening()) &&
+               read_text(mark_of_opening()) == document.string();
+    } catch (const UserError&) {
+        return false;
+    }
+}
+
+void DocumentDisk::note_opening() {
+    if (options_.state.empty()) return;
+    try {
+        fs::create_directories(options_.state.parent_path());
+        write_private_text(mark_of_opening(), document_.path().string());
+    } catch (const std::exception&) {
+        // Whoever cannot keep what is open does not open it again either.
+    }
+}
+
+void DocumentDisk::note_opened() {
+    std::error_code ignored;
+    if (!options_.state.empty()) fs::remove(mark_of_opening(), ignored);
 }
 
 void DocumentDisk::restore_kept() {
     try {
-        const Json state = Json::parse(read_text(options_.state));
+        const Json state = read_json<Json>(read_text(options_.state));
         document_.history() = Document::from_json(state);
         const Json on_disk = state.value("on_disk", Json::object());
         for (const auto& [file, digest] : on_disk.items()) watch_.know(file, digest);

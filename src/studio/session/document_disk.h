@@ -17,9 +17,17 @@ public:
     /// All outlive it.
     DocumentDisk(const StudioOptions& options, Pages& pages, OpenDocument& document)
         : options_(options), pages_(pages), document_(document) {}
+    ~DocumentDisk();
+    DocumentDisk(const DocumentDisk&) = delete;
+    DocumentDisk& operator=(const DocumentDisk&) = delete;
 
-    /// Opens what was open when the program ended, or what it was started with.
+    /// Opens what was open when the program ended, or what it was started with. What was being opened just then is not
+    /// opened again: it may be what ended the program.
     void restore();
+    /// What is open begins to be read; until `note_opened` a mark on disk says so.
+    void note_opening();
+    /// It was read and shown, or could not be.
+    void note_opened();
     /// Looks what other programs have written, twice a second, and keeps what has changed.
     void tick();
     void look();
@@ -39,6 +47,10 @@ public:
     std::filesystem::path writable(const std::filesystem::path& path) const;
 
 private:
+    void open(const Opened& opened);
+    void leave_closed(const Opened& opened);
+    std::filesystem::path mark_of_opening() const;
+    bool ended_while_opening(const std::filesystem::path& document) const;
     void keep();
     void restore_kept();
     void read_again(const std::vector<std::filesystem::path>& files);

@@ -49,6 +49,8 @@ void Growths::begin_next() {
     waits_ = false;
     is_busy_ = true;
     retired_.add(std::move(next_));
+    disk_.note_opening();
+    is_opening_ = true;
     GrowthOrder order = next_order();
     if (is_run(document_.path())) {
         next_ = std::make_unique<Recording>(std::move(order), listener_, workers_);
@@ -145,6 +147,7 @@ void Growths::note_grown(std::uint32_t growth, const GrownStep& step) {
         broadcast_statistics();
     }
     show_step(step);
+    note_opened(growth);
     begin_next();
     if (step.is_end) retired_.forget_ended();  // which takes its time: nothing waits for it now
 }
@@ -181,11 +184,18 @@ void Growths::note_stopped(std::uint32_t growth) {
     broadcast_progress();
     broadcast_statistics();
     for (const auto& viewer : pages_.all()) show(*viewer);
+    note_opened(growth);
     begin_next();
+}
+
+// The newest growth shows something, or says why not.
+void Growths::note_opened(std::uint32_t growth) {
+    if (growth == last_number_ && std::exchange(is_opening_, false)) disk_.note_opened();
 }
 
 void Growths::note_failed(std::uint32_t growth, const std::vector<Diagnostic>& why) {
     is_busy_ = false;
+    note_opened(growth);
     if (next_ && next_->number() == growth) {
         retired_.add(std::move(next_));
         if (shown_) shown_->source().rest(false);

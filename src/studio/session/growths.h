@@ -61,6 +61,7 @@ private:
     bool is_shown(std::uint32_t growth) const { return shown_ && shown_->number() == growth; }
     void show_step(const GrownStep& step);
     void broadcast_progress() const { pages_.broadcast(shown_->progress_message(progress_)); }
+    void note_opened(std::uint32_t growth);
     void broadcast_statistics();
 
     const StudioOptions& options_;
@@ -79,8 +80,9 @@ private:
     RetiredGrowths retired_;
     GrowthProgress progress_;
     Pace pace_;
-    int follow_from_ = 0;   ///< pages that look at the last step see every one from here on
-    bool is_busy_ = false;  ///< the newest growth has not come to its end
+    int follow_from_ = 0;      ///< pages that look at the last step see every one from here on
+    bool is_opening_ = false;  ///< the newest growth has shown nothing yet
+    bool is_busy_ = false;     ///< the newest growth has not come to its end
 };
 
 }  // namespace espalier::studio

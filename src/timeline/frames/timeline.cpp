@@ -3,6 +3,7 @@
 #include "espalier/base/error.h"
 
 #include "base/bytes.h"
+#include "base/folder.h"
 #include "timeline/frames/frame_writer.h"
 
 #include <fmt/format.h>
@@ -50,16 +51,17 @@ bool is_half_written(const fs::path& path) {
            is_number(process.substr(1));
 }
 
-// Folders that then hold nothing go, too.
+// Folders that then hold nothing go, too. No link is followed.
 void remove_frame_files(const fs::path& folder) {
-    if (!fs::is_directory(folder)) return;
+    if (!is_folder_itself(folder)) return;
     std::vector<fs::path> folders{folder};
+    std::vector<fs::path> files;
     for (const auto& item : fs::recursive_directory_iterator(folder)) {
-        if (item.is_directory()) folders.push_back(item.path());
-        if (item.is_regular_file() && (is_frame_file(item.path()) || is_half_written(item.path()))) {
-            fs::remove(item.path());
-        }
+        if (is_folder_itself(item.path())) folders.push_back(item.path());
+        const bool is_ours = is_frame_file(item.path()) || is_half_written(item.path());
+        if (is_ours && item.is_regular_file()) files.push_back(item.path());
     }
+    for (const fs::path& file : files) fs::remove(file);
     std::error_code holds_something;
     for (; !folders.empty(); folders.pop_back()) fs::remove(folders.back(), holds_something);
 }

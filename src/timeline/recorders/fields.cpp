@@ -129,7 +129,7 @@ private:
     // Returns the files' common name, without extension.
     std::string write(const Field& field, const Frame& frame) const {
         const std::string name = fmt::format("fields/{}/{:04}", field.name, frame.step);
-        make_folder(folder_ / "fields" / field.name);
+        make_folder_below(folder_, std::filesystem::path("fields") / field.name);
         if (vti_) write_vti(folder_ / (name + ".vti"), field, frame.time, frame.step);
         if (vdb_) grid_operations().write_vdb(folder_ / (name + ".vdb"), field);
         return name;

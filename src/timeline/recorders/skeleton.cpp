@@ -171,7 +171,7 @@ private:
         before.empty() ? file_.begin("PolyData") : file_.begin_after("PolyData");
         columns_.put_into(file_, frame.time, frame.step);
         const std::string name = file_of(frame.step, piece_);
-        make_folder(folder_ / "plants");
+        make_folder_below(folder_, "plants");
         file_.write(folder_ / name);
         written_ = name;
     }

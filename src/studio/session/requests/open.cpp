@@ -65,9 +65,9 @@ struct OpenedLink {
 NewVersion open(SessionParts& session, Viewer&, const OpenRequest& request) {
     const fs::path path = fs::absolute(request.path).lexically_normal();
     const std::vector<LibraryEntry> entries = session.options.library();
-    const bool is_offered =
-        std::any_of(entries.begin(), entries.end(), [&](const LibraryEntry& entry) { return entry.path == path; });
-    if (!is_offered) session.disk.below_folder(path);
+    const bool is_of_library = std::any_of(
+        entries.begin(), entries.end(), [&](const LibraryEntry& entry) { return entry.path == path && !entry.is_own; });
+    if (!is_of_library) session.disk.below_folder(path);
     if (!fs::exists(path)) throw UserError(fmt::format("{} does not exist", path.string()));
     session.document.apply({{path, {}, {}}, {}}, fmt::format("open {}", path.filename().string()), false);
     return {session.document.version()};
