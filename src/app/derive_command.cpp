@@ -67,6 +67,16 @@ private:
     Interpretation interpretation_;
 };
 
+/// Which queries of the last string are answered.
+enum class LastAnswers { all, of_turtle, none };
+
+// cpfg answers the others before the next step, if there is one. Its turtle walks the last string to find the view, and
+// answers what it meets, unless the view file has a box.
+LastAnswers last_answers(const Plant& plant, bool before_exchange) {
+    if (!before_exchange || (plant.view && plant.view->exchanges_first)) return LastAnswers::all;
+    return plant.view && plant.view->camera.box ? LastAnswers::none : LastAnswers::of_turtle;
+}
+
 /// Who lets a string grow: a derivation alone, whose turtle answers, or a whole world.
 struct Growth {
     std::function<bool()> done;  ///< asked anew after every step: a model may stop, or change its length
@@ -74,8 +84,11 @@ struct Growth {
     std::function<void()> answer_turtle;  ///< answers only what the turtle answers in an exchange
 };
 
-void grow(const Growth& growth, bool before_exchange) {
-    const auto exchange = [&] { growth.done() && before_exchange ? growth.answer_turtle() : growth.exchange(); };
+void grow(const Growth& growth, LastAnswers last) {
+    const auto exchange = [&] {
+        if (last == LastAnswers::all || !growth.done()) return growth.exchange();
+        if (last == LastAnswers::of_turtle) growth.answer_turtle();
+    };
     growth.plant_axiom();
     exchange();
     while (!growth.done()) {
@@ -84,7 +97,7 @@ void grow(const Growth& growth, bool before_exchange) {
     }
 }
 
-ModuleString derive_alone(const Scene& scene, const DeriveArguments& arguments, bool before_exchange) {
+ModuleString derive_alone(const Scene& scene, const DeriveArguments& arguments) {
     const Plant& plant = scene.plants.front();
     DerivationSettings settings;
     settings.seed = scene.seed;
@@ -114,7 +127,7 @@ ModuleString derive_alone(const Scene& scene, const DeriveArguments& arguments, 
               insertions.apply(derivation.steps_done(), string);
           },
           [&] { answers.answer(string, derivation, false); }, [&] { answers.answer(string, derivation, true); }},
-         before_exchange);
+         last_answers(plant, arguments.before_exchange));
     return string;
 }
 
@@ -233,7 +246,7 @@ struct Derived {
     std::shared_ptr<const CompiledModel> model;
 };
 
-Derived derive_in_world(const Scene& scene, const DeriveArguments& arguments, bool before_exchange) {
+Derived derive_in_world(const Scene& scene, const DeriveArguments& arguments) {
     World world(scene, arguments.memory == 0 ? default_memory() : arguments.memory, arguments.files);
     if (!arguments.quiet) print_warnings(world.warnings());
     const std::size_t plant = number_of_plant(world, arguments.plant);
@@ -253,7 +266,7 @@ Derived derive_in_world(const Scene& scene, const DeriveArguments& arguments, bo
               world.interpret();
               world.answer_turtle_queries();
           }},
-         before_exchange);
+         last_answers(world.scene().plants[plant], arguments.before_exchange));
     const auto& model = world.scene().plants[plant].model;
     if (!explanation) return {world.string(plant), "", model};
     return {{}, before ? explanation->text(*before, plant) : "step 0: the axiom is no step of productions\n", model};
@@ -306,11 +319,8 @@ int derive(const DeriveArguments& arguments) {
     const bool is_alone = !is_scene(arguments.model.file) && scene.environment.processes.empty() &&
                           arguments.plant.empty() && arguments.explained.empty();
 
-    const Plant& plant = scene.plants.front();
-    // "environment display: before" makes cpfg, too, answer the last queries.
-    const bool before_exchange = arguments.before_exchange && !(plant.view && plant.view->exchanges_first);
-    Derived derived = is_alone ? Derived{derive_alone(scene, arguments, before_exchange), "", plant.model}
-                               : derive_in_world(scene, arguments, before_exchange);
+    Derived derived = is_alone ? Derived{derive_alone(scene, arguments), "", scene.plants.front().model}
+                               : derive_in_world(scene, arguments);
     if (!arguments.explained.empty()) {
         write_out(derived.explanation);
         return exit_code::done;

@@ -30,14 +30,17 @@ void rotate_frame(Pose& pose, const glm::dvec3& axis, Rotation by) {
     straighten(pose);
 }
 
-/// The direction one tropism pulls to: its own, or the one at `angle` from it on the heading's side.
-glm::dvec3 pull(const Tropism& tropism, const glm::dvec3& heading) {
+/// The direction one tropism pulls to: its own, or the one at `angle` from it on the heading's side. A heading along
+/// the tropism, which has no side, is bent about the turtle's left, as in cpfg.
+glm::dvec3 pull(const Tropism& tropism, const Pose& pose) {
+    constexpr double least_sine = 1e-7;
     const glm::dvec3& T = tropism.direction;
     if (tropism.angle == 0) return T;
-    const glm::dvec3 across = glm::cross(heading, T);
+    const glm::dvec3 across = glm::cross(pose.heading, T);
     const double sine = glm::length(across);
-    if (sine == 0) return T * math::cos(tropism.angle);
-    return T * math::cos(tropism.angle) + glm::cross(T, across) * (math::sin(tropism.angle) / sine);
+    const glm::dvec3 along = T * math::cos(tropism.angle);
+    if (sine < least_sine) return along + glm::cross(T, pose.left) * math::sin(tropism.angle);
+    return along + glm::cross(T, across) * (math::sin(tropism.angle) / sine);
 }
 
 }  // namespace
@@ -96,7 +99,7 @@ bool bend_by_tropisms(Pose& pose, std::span<const Tropism> tropisms, std::span<c
     glm::dvec3 bend(0);
     for (std::size_t i = 0; i < tropisms.size(); ++i) {
         if (elasticities[i] == 0 || tropisms[i].torque) continue;
-        bend += pull(tropisms[i], pose.heading) * elasticities[i];
+        bend += pull(tropisms[i], pose) * elasticities[i];
     }
     // Prusinkiewicz & Lindenmayer 1990, section 2.3: alpha = e |H x T|, about the axis H x T.
     const glm::dvec3 axis = glm::cross(pose.heading, bend);

@@ -140,8 +140,25 @@ TEST_CASE_METHOD(Objects, "queries are answered by the turtle as the view file s
     write("walk.l", "lsystem: 1\nderivation length: 1\naxiom: F?P(0,0)\nF --> FF\nendlsystem\n");
     CHECK(run("derive walk.l").out == "FF?P(0,2)\n");
     CHECK(run("derive walk.l --before-exchange").out == "FF?P(0,2)\n");
-    write("walk.v", "environment display: before\n");
+    write("walk.v", "environment display: before\nbox: x: -1,1 y: 0,2 z: -1,1\n");
     CHECK(run("derive walk.l --view walk.v --before-exchange").out == "FF?P(0,2)\n");
+}
+
+TEST_CASE_METHOD(Objects, "before the last exchange, the turtle has answered only if it had to find the view",
+                 "[app]") {
+    write("walk.l", "lsystem: 1\nderivation length: 2\naxiom: A\nA --> F(1)?P(0,0,0)A\nendlsystem\n");
+    write("fitted.v", "angle increment: 90\n");
+    write("boxed.v", "box: x: -1,1 y: 0,2 z: -1,1\n");
+    CHECK(run("derive walk.l --view fitted.v --before-exchange").out == "F(1)?P(0,1,0)F(1)?P(0,2,0)A\n");
+    CHECK(run("derive walk.l --view boxed.v --before-exchange").out == "F(1)?P(0,1,0)F(1)?P(0,0,0)A\n");
+    CHECK(run("derive walk.l --view boxed.v --before-exchange --steps 1").out == "F(1)?P(0,0,0)A\n");
+    CHECK(run("derive walk.l --view boxed.v").out == "F(1)?P(0,1,0)F(1)?P(0,2,0)A\n");
+    // In a scene, the view file of the plant that is printed counts, whatever the first plant has.
+    write("scene.toml",
+          "[[plant]]\nname = 'fitted'\nmodel = 'walk.l'\nview = 'fitted.v'\n"
+          "[[plant]]\nname = 'boxed'\nmodel = 'walk.l'\nview = 'boxed.v'\n");
+    CHECK(run("derive scene.toml --plant fitted --before-exchange").out == "F(1)?P(0,1,0)F(1)?P(0,2,0)A\n");
+    CHECK(run("derive scene.toml --plant boxed --before-exchange").out == "F(1)?P(0,1,0)F(1)?P(0,0,0)A\n");
 }
 
 TEST_CASE_METHOD(Objects, "a derivation length that a model changes holds for run and derive alike", "[app]") {

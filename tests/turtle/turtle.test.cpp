@@ -231,6 +231,28 @@ TEST_CASE("a tropism with an angle settles at that angle from its direction", "[
     CHECK(angle_between(pose.heading, -Y) == Approx(1.2));
 }
 
+TEST_CASE("a tropism with an angle bends a segment along it about the turtle's left, as cpfg does", "[turtle]") {
+    const auto bent = [](const glm::dvec3& direction, double degrees, double elasticity, Pose pose = {}) {
+        const Tropism tropism{direction, degrees * quarter / 90, 0, 0, false};
+        apply_tropisms(pose, std::span(&tropism, 1), std::span(&elasticity, 1));
+        return pose;
+    };
+    const glm::dvec3 along = bent(Y, 90, 0.8).heading;
+    CHECK(glm::length(along - glm::dvec3(0, 0.696707, 0.717356)) < 1e-6);
+    const glm::dvec3 against = bent(-Y, 30, 0.8).heading;
+    CHECK(glm::length(against - glm::dvec3(0, 0.921061, -0.389418)) < 1e-6);
+    // The turtle turns about its left, whatever that is, and nearly along is along.
+    Pose rolled;
+    roll_left(rolled, 0.7);
+    const glm::dvec3 left = rolled.left;
+    CHECK(glm::length(bent(Y, 90, 0.8, rolled).left - left) < 1e-15);
+    Pose slanted;
+    turn_left(slanted, 1e-8);
+    CHECK(glm::length(bent(Y, 90, 0.8, slanted).heading - along) < 1e-7);
+    // Without an angle there is nothing to turn to.
+    CHECK(bent(Y, 0, 0.8).heading == Y);
+}
+
 TEST_CASE("a strong tropism turns by one radian at most", "[turtle]") {
     Pose pose = pose_after("+(90)");
     apply_tropisms(pose, std::vector<Tropism>{{}}, std::vector{50.0});

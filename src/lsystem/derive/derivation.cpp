@@ -70,8 +70,6 @@ void Derivation::step(const ModuleString& from, ModuleString& to) {
     if (state.model->has_memory) state.begin_memory();
     state.run_block(state.main.start_each, "the StartEach block");
     state.rewrite(from, to);
-    // cpfg never lets a string become empty: it keeps the old one.
-    if (to.empty() && state.model->source->arithmetic == Arithmetic::cpfg) to = from;
     state.run_block(state.main.end_each, "the EndEach block");
     if (steps_done() == length()) state.run_block(state.main.end, "the End block");
     if (state.model->uses_files) state.files.flush_all();
