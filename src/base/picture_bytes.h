@@ -46,11 +46,12 @@ private:
     std::string bytes_;
 };
 
-/// What a PNG file shows, from the highest row down; palettes are looked up, opacity is left out.
+/// What a PNG file shows, from the highest row down; palettes are looked up.
 struct PngPicture {
     std::size_t width = 0, height = 0, channels = 0;  ///< one channel of grey, or red, green, blue
     int greatest = 255;                               ///< what white is
     std::vector<std::uint16_t> samples;
+    std::vector<std::uint16_t> opacity;  ///< of each pixel, up to `greatest`; empty: all are opaque
 
     int at(std::size_t x, std::size_t y, std::size_t channel) const {
         return samples[(y * width + x) * channels + (channels == 3 ? channel : 0)];

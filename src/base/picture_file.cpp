@@ -12,20 +12,21 @@ namespace {
 
 Picture black(const PictureBytes& bytes, std::size_t width, std::size_t height) {
     bytes.require_size(width, height, 512);  // no run-length code says more
-    Picture image{width, height, {}};
+    Picture image{width, height, {}, {}};
     image.pixels.resize(width * height);
     return image;
 }
 
 Picture from_png(const PngPicture& picture) {
-    Picture image{picture.width, picture.height, {}};
+    Picture image{picture.width, picture.height, {}, {}};
+    const auto eight_bits = [&](int sample) {
+        return static_cast<std::uint8_t>(picture.greatest > 255 ? sample / 256 : sample);
+    };
     for (std::size_t y = picture.height; y-- > 0;) {
         for (std::size_t x = 0; x < picture.width; ++x) {
             Picture::Colour& colour = image.pixels.emplace_back();
-            for (std::size_t k = 0; k < 3; ++k) {
-                const int sample = picture.at(x, y, k);
-                colour[k] = static_cast<std::uint8_t>(picture.greatest > 255 ? sample / 256 : sample);
-            }
+            for (std::size_t k = 0; k < 3; ++k) colour[k] = eight_bits(picture.at(x, y, k));
+            if (!picture.opacity.empty()) image.opacity.push_back(eight_bits(picture.opacity[y * picture.width + x]));
         }
     }
     return image;

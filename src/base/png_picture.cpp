@@ -83,6 +83,7 @@ public:
           has_palette_(png_get_color_type(decoder.png(), decoder.info()) == PNG_COLOR_TYPE_PALETTE) {
         decoder.guarded([&](png_structp png, png_infop info) {
             if (has_palette_) png_get_PLTE(png, info, &palette_, &colours_);
+            png_get_tRNS(png, info, &opacities_, &transparent_, &colour_);
         });
     }
 
@@ -93,10 +94,19 @@ public:
                 add_colour(row[at]);
                 continue;
             }
-            for (std::size_t k = 0; k < picture_.channels; ++k) {
-                const png_byte* sample = row.data() + at + k * sample_size;
-                const int value = sample_size == 2 ? 256 * sample[0] + sample[1] : sample[0];
-                picture_.samples.push_back(static_cast<std::uint16_t>(value));
+            const auto sample = [&](std::size_t k) {
+                const png_byte* bytes = row.data() + at + k * sample_size;
+                return static_cast<std::uint16_t>(sample_size == 2 ? 256 * bytes[0] + bytes[1] : bytes[0]);
+            };
+            for (std::size_t k = 0; k < picture_.channels; ++k) picture_.samples.push_back(sample(k));
+            if (stored_ > picture_.channels) {
+                picture_.opacity.push_back(sample(picture_.channels));
+            } else if (colour_) {
+                const bool is_clear =
+                    picture_.channels == 1
+                        ? sample(0) == colour_->gray
+                        : sample(0) == colour_->red && sample(1) == colour_->green && sample(2) == colour_->blue;
+                picture_.opacity.push_back(static_cast<std::uint16_t>(is_clear ? 0 : picture_.greatest));
             }
         }
     }
@@ -107,6 +117,7 @@ private:
         for (const png_byte channel : {palette_[index].red, palette_[index].green, palette_[index].blue}) {
             picture_.samples.push_back(channel);
         }
+        if (opacities_) picture_.opacity.push_back(index < transparent_ ? opacities_[index] : png_byte{255});
     }
 
     const PictureBytes& bytes_;
@@ -115,6 +126,9 @@ private:
     bool has_palette_;
     png_colorp palette_ = nullptr;
     int colours_ = 0;
+    png_bytep opacities_ = nullptr;   ///< of the first colours of the palette
+    int transparent_ = 0;             ///< how many these are
+    png_color_16p colour_ = nullptr;  ///< the one that is clear, of pictures without opacities or palette
 };
 
 }  // namespace

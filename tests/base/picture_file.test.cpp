@@ -3,6 +3,7 @@
 #include "espalier/base/file.h"
 
 #include "base/picture_bytes.h"
+#include "base/png_file.h"
 #include "catch.h"
 #include "picture_bytes.h"
 #include "temporary_folder.h"
@@ -99,6 +100,15 @@ TEST_CASE("a PNG keeps its 16 bits, its grey and the colours of its palette", "[
     CHECK(read_picture(file).pixels == std::vector<Picture::Colour>{{1, 1, 1}, {255, 255, 255}, {0, 0, 0}, {0, 0, 0}});
     write_png(file, 3, std::vector<std::uint8_t>{1, 0, 1}, PNG_COLOR_TYPE_PALETTE, {{9, 8, 7}, {4, 5, 6}});
     CHECK(whole_png(file).samples == std::vector<std::uint16_t>{4, 5, 6, 9, 8, 7, 4, 5, 6});
+}
+
+TEST_CASE("the opacity of a PNG is read; pictures without one have none", "[base]") {
+    const TemporaryFolder folder;
+    OpacityPicture picture{2, 2, {{1, 2, 3, 0}, {4, 5, 6, 255}, {7, 8, 9, 128}, {10, 11, 12, 1}}};
+    const Picture read = read_picture(folder.write("a.png", png_bytes(picture)));
+    CHECK(read.opacity == std::vector<std::uint8_t>{128, 1, 0, 255});  // the lowest row first
+    CHECK(read.pixels[0] == Picture::Colour{7, 8, 9});
+    CHECK(read_picture(png(folder)).opacity.empty());
 }
 
 TEST_CASE("a PNG that is damaged, or uses a colour its palette lacks, is refused", "[base]") {

@@ -119,6 +119,11 @@ vtkSmartPointer<vtkImageData> texture_image(const fs::path& run, const std::stri
     return nullptr;
 }
 
+fs::path texture_path(const fs::path& run, const std::string& file) {
+    const std::vector<fs::path> places = places_of(run, file);
+    return places.empty() ? fs::path() : places.front();
+}
+
 std::optional<BarkRelief> bark_relief(const fs::path& run, const std::string& file) {
     const std::vector<fs::path> places = is_bark(file) ? places_of(run, file) : std::vector<fs::path>();
     if (places.empty()) return std::nullopt;
