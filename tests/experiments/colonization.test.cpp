@@ -318,7 +318,7 @@ double least_lead(const std::map<std::string, double>& settings, std::uint64_t s
 
 TEST_CASE("a trunk through the whole crown ends at its top and is the thickest axis at every height",
           "[colonization]") {
-    const std::map<std::string, double> bare{{"TRUNK_IN_CROWN", 1}, {"LEAVES", 0}, {"STEM_LENGTH", 0}};
+    const std::map<std::string, double> bare{{"TRUNK_IN_CROWN", 1}, {"LEAVES", 0}, {"STEM_LENGTH", 0}, {"ROOTS", 0}};
     const auto with = [&](std::map<std::string, double> more) {
         more.insert(bare.begin(), bare.end());
         return more;

@@ -119,8 +119,7 @@ bool StageSurvey::is_rooted() const {
     constexpr double narrow = 0.3;  // by the extent of a plant
     return std::all_of(stances.begin(), stances.end(), [](const auto& entry) {
         const auto& [all, feet] = entry.second;
-        if (all.empty() || !(all.lower.y < 0)) return true;
-        if (feet.empty()) return all.upper.y < 0;
+        if (all.empty() || feet.empty()) return true;  // the plane cuts nothing
         const glm::dvec3 stand = feet.upper - feet.lower, extent = all.upper - all.lower;
         return std::max(stand.x, stand.z) <= narrow * std::max({extent.x, extent.y, extent.z});
     });

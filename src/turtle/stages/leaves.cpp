@@ -243,24 +243,31 @@ private:
         return counts;
     }
 
-    /// The crown's ground is that below a leaf at each node, and those leaves are taken away again.
+    /// The crown's ground is that below its leaves: below one of each node first, then below those that this gives.
     Counts counts_for_index(PlantGeometry& geometry, const std::vector<BearingNode>& nodes, RandomKey key,
                             const Organ& pattern, double area) const {
-        const std::size_t before = geometry.organs.size();
-        add(geometry, nodes, Counts(nodes.size(), 1), key, pattern);
+        Counts counts(nodes.size(), area > 0 ? 1 : 0);
+        for (int pass = 0; pass < 3 && area > 0; ++pass) {
+            const double ground = ground_of(geometry, nodes, counts, key, pattern);
+            const auto wanted = static_cast<std::size_t>(std::llround(counts_.index() * ground / area));
+            const auto total = [&](const Counts& each) {
+                const Counts kept = thinned(each, nodes, geometry, area, key);
+                return std::accumulate(kept.begin(), kept.end(), std::size_t{0});
+            };
+            counts = thinned(counts_.reaching(wanted, nodes, key, total), nodes, geometry, area, key);
+        }
+        return counts;
+    }
+
+    double ground_of(PlantGeometry& geometry, const std::vector<BearingNode>& nodes, const Counts& counts,
+                     RandomKey key, const Organ& pattern) const {
         PlantGeometry leaves;
         leaves.shapes = geometry.shapes;
+        const std::size_t before = geometry.organs.size();
+        add(geometry, nodes, counts, key, pattern);
         leaves.organs.assign(geometry.organs.begin() + static_cast<std::ptrdiff_t>(before), geometry.organs.end());
         geometry.organs.resize(before);
-        if (!(area > 0)) return Counts(nodes.size(), 0);
-        const double ground = ground_below(leaves);
-        const auto wanted = static_cast<std::size_t>(std::llround(counts_.index() * ground / area));
-        return thinned(counts_.reaching(wanted, nodes, key,
-                                        [&](const Counts& counts) {
-                                            const Counts kept = thinned(counts, nodes, geometry, area, key);
-                                            return std::accumulate(kept.begin(), kept.end(), std::size_t{0});
-                                        }),
-                       nodes, geometry, area, key);
+        return ground_below(leaves);
     }
 
     // One of each node at a time: readers of a run take neighbours of one module for one organ.

@@ -3,11 +3,14 @@
 
 #include "catch.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 using namespace espalier;
 using namespace espalier::environment;

@@ -276,7 +276,7 @@ TEST_CASE("a leaf area index of leaves is the one that was asked for, by what th
               Approx(wanted).epsilon(0.05));
     }
     CHECK_THROWS_WITH(leafy(crown, {{"leaf_area_index", 3}, {"number", 5}}), Contains("without 'number'"));
-    CHECK_THROWS_WITH(leafy(crown, {{"leaf_area_index", 20}, {"shade", 10}}),
+    CHECK_THROWS_WITH(leafy(crown, {{"leaf_area_index", 30}, {"size", 0.01}}),
                       Contains("needs more than 1000 leaves a node") && Contains("less shade"));
 }
 
