@@ -150,7 +150,7 @@ for tree in coffee poplar spruce; do
 done
 grow buds-spruce-young environments/buds/spruce.toml --steps 40 --every 1000
 render buds-spruce-young.png buds-spruce-young --size 220x260
-grow buds-dead models/trees/buds.l --define DEATH=0.03 --define MARK=1 --every 1000
+grow buds-dead models/trees/buds.l --define DEATH=0.03 --define MARK=0.4 --every 1000
 render buds-dead.png buds-dead --size 220x260
 holton() { # NAME [OPTIONS]
     grow "$1" models/trees/holton.l --every 1000 "${@:2}"
