@@ -229,14 +229,16 @@ TEST_CASE("stage: roots are seen through the ground, and darker than beside it",
     if (!can_draw()) return;
     HandmadePlant plant = stem(0, 0, 0);
     plant.add_internode(3, 1, 1, 1, 1, {0, 0, 0}, {0, -1.5, 0}, 0.5);
+    plant.add_internode(4, 1, 1, 2, 1, {0, 1, 0}, {1.5, 1.5, 1.5}, 0.5);
+    plant.add_internode(5, 1, 1, 3, 1, {0, 1, 0}, {-1.5, 1.5, -1.5}, 0.5);
     Pictured pictured({&plant});
     PictureStyle style = Pictured::plain();
-    const glm::dvec3 root{0, -0.4, 0};
+    const glm::dvec3 root{0, -0.2, 0};
     auto image = pictured.picture(style, {0, 20});
     const Pixel bare = pictured.seen(*image, root);
     style.ground = true;
     image = pictured.picture(style, {0, 20});
-    const Pixel below = pictured.seen(*image, root), beside = pictured.seen(*image, {0.5, -0.4, 0});
+    const Pixel below = pictured.seen(*image, root), beside = pictured.seen(*image, {0.5, -0.2, 0});
     CHECK_FALSE(is_white(beside));
     CHECK(std::abs(below[0] - bare[0]) > 5);     // through the ground
     CHECK(std::abs(below[0] - beside[0]) > 25);  // but still seen

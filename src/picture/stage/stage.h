@@ -38,6 +38,7 @@ struct StageSurvey {
     /// A plant, and where it passes through the height 0.
     struct Stance {
         Box box, feet;
+        glm::dvec3 origin{0};  ///< its first point
     };
     std::map<std::uint32_t, Stance> stances;
 

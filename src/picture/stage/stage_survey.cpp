@@ -25,7 +25,9 @@ void add_plants(const FrameGeometry& geometry, const std::optional<std::uint32_t
         survey.box.add(point);
         if (!stance || standing != geometry.of_points.plants[i]) {
             standing = geometry.of_points.plants[i];
-            stance = &survey.stances[standing];
+            const auto [found, is_new] = survey.stances.try_emplace(standing);
+            stance = &found->second;
+            if (is_new) stance->origin = point;
         }
         stance->box.add(point);
         survey.outline.add(point, std::isfinite(geometry.radii[i]) ? geometry.radii[i] : 0);
@@ -118,9 +120,11 @@ bool StageSurvey::has_roots_to_see() const {
 bool StageSurvey::is_rooted() const {
     constexpr double narrow = 0.3;  // by the extent of a plant
     return std::all_of(stances.begin(), stances.end(), [](const auto& entry) {
-        const auto& [all, feet] = entry.second;
+        const auto& [all, feet, origin] = entry.second;
         if (all.empty() || feet.empty()) return true;  // the plane cuts nothing
-        const glm::dvec3 stand = feet.upper - feet.lower, extent = all.upper - all.lower;
+        Box around = feet;
+        around.add({origin.x, 0, origin.z});
+        const glm::dvec3 stand = around.upper - around.lower, extent = all.upper - all.lower;
         return std::max(stand.x, stand.z) <= narrow * std::max({extent.x, extent.y, extent.z});
     });
 }

@@ -76,6 +76,7 @@ TEST_CASE("a rough cloud is the smooth one without parts of its rim", "[markers]
 
 TEST_CASE("however rough its rim, a cloud is as wide, high and deep as it should be", "[markers]") {
     for (const double rough : {0.2, 0.35, 0.7}) {
+        const double near = rough < 0.5 ? 0.07 : 0.14;  // a spike that is left is thin: few points lie at its end
         for (const auto& [below, above] : {std::pair(0.0, 0.0), {0.1, 0.0}, {0.5, 0.2}, {0.7, 0.0}}) {
             const double lower = -1 + 2 * below, upper = 1 - 2 * above, middle = std::clamp(0.0, lower, upper);
             const double widest = std::sqrt(1 - middle * middle);
@@ -89,11 +90,11 @@ TEST_CASE("however rough its rim, a cloud is as wide, high and deep as it should
                     box.add(point);
                 }
                 for (const int axis : {0, 2}) {
-                    CHECK(box.lower[axis] == Approx(-widest).margin(0.07));
-                    CHECK(box.upper[axis] == Approx(widest).margin(0.07));
+                    CHECK(box.lower[axis] == Approx(-widest).margin(near));
+                    CHECK(box.upper[axis] == Approx(widest).margin(near));
                 }
-                CHECK(box.lower.y == Approx(lower).margin(0.07));
-                CHECK(box.upper.y == Approx(upper).margin(0.07));
+                CHECK(box.lower.y == Approx(lower).margin(near));
+                CHECK(box.upper.y == Approx(upper).margin(near));
             }
         }
     }
