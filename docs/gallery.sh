@@ -74,7 +74,7 @@ shelf "Trees and shrubs"
 entry environments/tree.toml "Tree from a cloud of points" "Runions, Lane & Prusinkiewicz 2007" -- --light
 entry environments/self-organizing.toml "Self-organizing tree" "Palubicki et al. 2009" --set plant.0.define.YEARS=16 -- --light
 entry models/species/balsam-fir.species "Balsam fir" "parameters of Weber & Penn 1995" -- --light
-entry models/species/black-oak.species "California black oak" "Weber & Penn 1995" -- --light
+entry models/species/black-oak.species "California black oak" "Weber & Penn 1995" --seed 4 -- --light
 entry models/species/black-tupelo.species "Black tupelo" "Weber & Penn 1995" -- --light
 entry models/species/coconut-palm.species "Coconut palm" "Weber & Penn 1995" -- --light
 entry models/species/european-larch.species "European larch" "parameters of Weber & Penn 1995" -- --light
@@ -106,7 +106,7 @@ entry models/trees/strahler.l "Strahler numbers" "Strahler 1952"
 entry models/trees/tropisms.l "Tropisms" "" -- --size 360x360
 entry models/trees/twisted-stem.l "A stem with helical twist and taper" "Oppenheimer 1986"
 entry models/trees/unequal-flow.l "Growth by unequal flow" "Honda, Tomlinson & Fisher 1981"
-entry models/trees/weeping.l "Branches that bend" "Prusinkiewicz & Lindenmayer 1990, section 2.1" --view models/trees/weeping.v
+entry models/trees/weeping.l "Branches that bend" "Prusinkiewicz & Lindenmayer 1990, section 2.1" --view models/trees/weeping.v -- --size 360x360
 entry models/pgraph/broadleaf.pgraph "Broadleaved tree of any size" "Lintermann & Deussen 1997" -- --light
 entry models/pgraph/bush.pgraph "Bush of components" "Lintermann & Deussen 1997" -- --light
 entry models/pgraph/palm.pgraph "Palm" "Lintermann & Deussen 1997" -- --light
@@ -170,9 +170,9 @@ entry models/leaves/compound-leaf-timed.l "Compound leaf in continuous time" "Pr
 entry models/leaves/compound-leaf.l "Compound leaf" "Prusinkiewicz & Lindenmayer 1990" -- --size 360x360
 entry models/leaves/contour-leaf.l "Leaf traced along its edge" "Prusinkiewicz & Lindenmayer 1990, section 5.1"
 entry models/leaves/cordate-leaf.l "Heart-shaped leaf" "Prusinkiewicz & Lindenmayer 1990, section 5.2"
-entry models/leaves/fern.l "Fern frond that unrolls" "after Prusinkiewicz & Lindenmayer 1990" -- --azimuth 60
+entry models/leaves/fern.l "Fern frond that unrolls" "after Prusinkiewicz & Lindenmayer 1990" --steps 44 -- --azimuth 25 --elevation 8 --size 360x360
 entry models/leaves/framework-leaf.l "Leaf on a growing framework" "Prusinkiewicz & Lindenmayer 1990, section 5.2"
-entry models/leaves/rose-leaf.l "Serrated leaf" "Prusinkiewicz & Lindenmayer 1990"
+entry models/leaves/rose-leaf.l "Serrated leaf" "Prusinkiewicz & Lindenmayer 1990" -- --azimuth 20 --elevation 15 --no-ground --size 360x360
 entry models/leaves/simple-leaf.l "Leaf with midrib and ribs" "Prusinkiewicz & Lindenmayer 1990, figure 5.6"
 entry models/organs/horn.l "Horn" "Lintermann & Deussen 1999"
 entry models/organs/patch-leaf.l "Leaf as a patch" "Prusinkiewicz & Lindenmayer 1990, section 5.1"

@@ -126,7 +126,7 @@ species() { # NAME [OPTIONS]; the last step alone, because the whole growth of a
 for plant in quaking-aspen black-tupelo lombardy-poplar coconut-palm balsam-fir european-larch sassafras; do
     species "$plant"
 done
-species black-oak
+species black-oak --seed 4
 species weeping-willow --define Branches_3=60 --define QUALITY=0.5
 grow wind environments/wind.toml
 render wind.png wind --sheet 4x1 --size 220x280
@@ -150,16 +150,17 @@ for tree in coffee poplar spruce; do
 done
 grow buds-spruce-young environments/buds/spruce.toml --steps 40 --every 1000
 render buds-spruce-young.png buds-spruce-young --size 220x260
-grow buds-dead models/trees/buds.l --define DEATH=0.03 --define MARK=1 --every 1000
+grow buds-dead models/trees/buds.l --define DEATH=0.03 --define MARK=0.4 --every 1000
 render buds-dead.png buds-dead --size 220x260
 holton() { # NAME [OPTIONS]
     grow "$1" models/trees/holton.l --every 1000 "${@:2}"
     render "$1.png" "$1" --size 220x260
 }
 holton holton-fir
-holton holton-pine --define CROWN=7 --define LENGTH=1 --define LEAST_BRANCH=0.8 --define LEAST_DRAWN=0.6 --define STRANDS=2000 \
-    --define THICKNESS=0.008 --define SHARE_0=0.93 --define ANGLE_0=80 --define CROWN_SHARE_0=0.62 \
-    --define CROWN_ANGLE_1=60 --define CROWN_DIVERGENCE=110
+holton holton-pine --define FOOT=6 --define LENGTH=1.1 --define CROWN=2 --define SHARE_0=0.85 --define ANGLE_0=70 \
+    --define LEAST_BRANCH=1.2 --define LEAST_DRAWN=1.2 --define CROWN_SHARE_0=0.72 --define CROWN_SHARE_1=0.58 \
+    --define CROWN_ANGLE_0=75 --define CROWN_ANGLE_1=55 --define CROWN_DIVERGENCE=100 --define STRANDS=4000 \
+    --define THICKNESS=0.007
 holton holton-broadleaf --define CROWN=0 --define LENGTH=1.2 --define STRANDS=1500 --define THICKNESS=0.008 \
     --define CROWN_DIVERGENCE=100 --define CROWN_ANGLE_1=55 --define LEAVES=4
 grow sierpinski environments/sierpinski-triangle.toml

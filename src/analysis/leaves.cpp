@@ -1,8 +1,6 @@
 #include "analysis/leaves.h"
 
-#include "geometry/vectors.h"
-
-#include <glm/geometric.hpp>
+#include "archive/facet_areas.h"
 
 #include <unordered_map>
 
@@ -12,7 +10,7 @@ namespace {
 /// Facets that follow each other in the file and belong to one module are one leaf.
 class LeafBuilder {
 public:
-    void add(std::uint64_t identity, const FrameGeometry& geometry, std::span<const std::int32_t> facet) {
+    void add(std::uint64_t identity, const FrameGeometry& geometry, std::span<const std::int32_t> facet, double area) {
         if (identity != identity_ || identity == 0) end();
         identity_ = identity;
         const auto corner = [&](std::size_t i) {
@@ -24,7 +22,7 @@ public:
             sum_ += here;
             ++corners_;
         }
-        area_ += glm::length(area_vector(facet.size(), corner));
+        area_ += area;
     }
     void end() {
         if (corners_ > 0) leaves.leaves.push_back({sum_ / static_cast<double>(corners_), area_});
@@ -45,13 +43,14 @@ private:
 }  // namespace
 
 std::vector<Leaves> leaves_of(const FrameGeometry& geometry, std::span<const std::uint32_t> plants,
-                              const std::set<std::string>& symbols) {
+                              const std::set<std::string>& symbols, const std::filesystem::path& run) {
     std::unordered_map<std::uint32_t, std::size_t> place;
     for (const std::uint32_t plant : plants) place.emplace(plant, place.size());
     std::vector<bool> wanted(geometry.symbol_names.size(), symbols.empty());
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         if (symbols.contains(geometry.symbol_names[i])) wanted[i] = true;
     }
+    const archive::FacetAreas areas(geometry, run);
     std::vector<LeafBuilder> builders(place.size());
     const FrameAttributes& of = geometry.of_cells;
     for (std::size_t i = 0; i < geometry.polygons.size(); ++i) {
@@ -60,7 +59,7 @@ std::vector<Leaves> leaves_of(const FrameGeometry& geometry, std::span<const std
         if (kind != Kind::polygon && kind != Kind::organ && kind != Kind::patch) continue;
         const auto known = place.find(of.plants[cell]);
         if (known == place.end() || of.symbols[cell] >= wanted.size() || !wanted[of.symbols[cell]]) continue;
-        builders[known->second].add(of.identities[cell], geometry, geometry.polygons[i]);
+        builders[known->second].add(of.identities[cell], geometry, geometry.polygons[i], areas.of(i));
     }
     std::vector<Leaves> result;
     for (LeafBuilder& builder : builders) {

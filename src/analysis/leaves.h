@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <filesystem>
 #include <set>
 #include <span>
 #include <string>
@@ -16,7 +17,7 @@ namespace espalier::analysis {
 /// What one module shows: a polygon, a disc, a surface of many facets, or several of them.
 struct Leaf {
     glm::dvec3 position;  ///< mean of its corners, m
-    double area;          ///< area of its facets, one side, m2
+    double area;          ///< area of its facets, one side, m2: where they wear a picture, what that leaves opaque
 };
 
 struct Leaves {
@@ -25,9 +26,9 @@ struct Leaves {
 };
 
 /// The leaves of each of `plants`, in their order: polygons, organs and patches of the modules with these symbols, of
-/// all modules if none is named.
+/// all modules if none is named. `run` is the folder whence their textures are found.
 std::vector<Leaves> leaves_of(const FrameGeometry& geometry, std::span<const std::uint32_t> plants,
-                              const std::set<std::string>& symbols = {});
+                              const std::set<std::string>& symbols = {}, const std::filesystem::path& run = {});
 
 double total_area(const Leaves& leaves);
 

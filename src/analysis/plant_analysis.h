@@ -9,6 +9,7 @@
 #include "analysis/profile.h"
 #include "analysis/widths.h"
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,9 +42,9 @@ struct PlantAnalysis {
 PlantAnalysis analyse(std::uint32_t plant, const BranchTree& tree, const Leaves& leaves,
                       const AnalysisOptions& options = {});
 
-/// Analyses each of `plants`, in their order.
+/// Analyses each of `plants`, in their order. `run` is the folder whence textures of leaves are found.
 std::vector<PlantAnalysis> analyse(const FrameGeometry& geometry, std::span<const std::uint32_t> plants,
-                                   const AnalysisOptions& options = {});
+                                   const AnalysisOptions& options = {}, const std::filesystem::path& run = {});
 
 /// One figure of a plant: a column of analysis.csv.
 struct Measure {

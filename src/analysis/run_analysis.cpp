@@ -45,7 +45,8 @@ RunAnalysis::Frame RunAnalysis::Frame::read(const RecordedRun& run, const Record
     Frame frame{from.step, from.time, {}, {}};
     std::map<std::uint32_t, PlantAnalysis> found;
     const auto add = [&](const FrameGeometry& geometry, const std::vector<std::uint32_t>& some) {
-        for (PlantAnalysis& plant : analyse(geometry, some, options)) found[plant.plant] = std::move(plant);
+        for (PlantAnalysis& plant : analyse(geometry, some, options, run.folder()))
+            found[plant.plant] = std::move(plant);
     };
     for (const RecordedFrame& piece : from.pieces()) {
         const FrameGeometry geometry = run.geometry(piece);

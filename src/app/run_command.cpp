@@ -187,7 +187,7 @@ RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog&
     options.ranks = ranks;
     options.patience = arguments.timeout;
     options.expired = [json = arguments.json](const std::string& why) { end_without_answer(why, json); };
-    if (!arguments.quiet) options.warn = print_warnings;
+    if (!arguments.quiet) options.warn = arguments.warn;
     if (!arguments.quiet) options.saving = say_what_is_saved;
     ProgressReport report(arguments.quiet);
     options.progress = [&](const Progress& progress) { report(progress); };

@@ -76,7 +76,7 @@ public:
         if (found != entries_.end()) {
             entries_.splice(entries_.begin(), entries_, found);
         } else {
-            entries_.push_front({frame.plants, written, OrganTable(run.geometry(frame))});
+            entries_.push_front({frame.plants, written, OrganTable(run.geometry(frame), run.folder())});
             bytes_ += entries_.front().table.bytes();
             while (bytes_ > most_bytes_ && entries_.size() > 1) {
                 bytes_ -= entries_.back().table.bytes();

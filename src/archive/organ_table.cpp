@@ -1,6 +1,6 @@
 #include "archive/organ_table.h"
 
-#include "geometry/vectors.h"
+#include "archive/facet_areas.h"
 
 #include <glm/geometric.hpp>
 
@@ -13,7 +13,8 @@ namespace {
 /// A piece of an organ: an internode, a polygon, or a point.
 class Pieces {
 public:
-    explicit Pieces(const FrameGeometry& geometry) : geometry_(geometry) {}
+    Pieces(const FrameGeometry& geometry, const std::filesystem::path& run)
+        : geometry_(geometry), areas_(geometry, run) {}
 
     void add_lines() {
         const FrameGeometry& g = geometry_;
@@ -24,10 +25,17 @@ public:
         }
     }
 
-    void add_cells(const FrameCells& cells) {
+    void add_polygons() {
+        const FrameCells& cells = geometry_.polygons;
         for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-            const auto corners = cells[cell];
-            if (!corners.empty()) add_surface(cells.first + cell, corners);
+            if (!cells[cell].empty()) add_surface(cells.first + cell, cells[cell], areas_.of(cell));
+        }
+    }
+
+    void add_points() {
+        const FrameCells& cells = geometry_.vertices;
+        for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+            if (!cells[cell].empty()) add_surface(cells.first + cell, cells[cell], 0);
         }
     }
 
@@ -77,13 +85,13 @@ private:
         add(row);
     }
 
-    void add_surface(std::size_t cell, std::span<const std::int32_t> corners) {
+    void add_surface(std::size_t cell, std::span<const std::int32_t> corners, double area) {
         const auto corner = [&](std::size_t i) { return geometry_.points[static_cast<std::size_t>(corners[i])]; };
         OrganRow row = row_of(geometry_.of_cells, cell, corner(0), corner(0), corners[0]);
         for (std::size_t i = 1; i < corners.size(); ++i) {
             if (glm::distance(row.base, corner(i)) > glm::distance(row.base, row.tip)) row.tip = corner(i);
         }
-        row.area = glm::length(area_vector(corners.size(), corner));
+        row.area = area;
         add(row);
     }
 
@@ -111,21 +119,23 @@ private:
     }
 
     const FrameGeometry& geometry_;
+    FacetAreas areas_;
     std::vector<OrganRow> rows_;
 };
 
 }  // namespace
 
-OrganTable::OrganTable(const FrameGeometry& geometry) : symbol_names_(geometry.symbol_names) {
-    gather(geometry);
+OrganTable::OrganTable(const FrameGeometry& geometry, const std::filesystem::path& run)
+    : symbol_names_(geometry.symbol_names) {
+    gather(geometry, run);
     keep_parameters(geometry);
 }
 
-void OrganTable::gather(const FrameGeometry& geometry) {
-    Pieces pieces(geometry);
+void OrganTable::gather(const FrameGeometry& geometry, const std::filesystem::path& run) {
+    Pieces pieces(geometry, run);
     pieces.add_lines();  // first: what has an internode is one
-    pieces.add_cells(geometry.polygons);
-    pieces.add_cells(geometry.vertices);
+    pieces.add_polygons();
+    pieces.add_points();
     rows_ = pieces.merged();
 }
 

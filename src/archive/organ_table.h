@@ -14,13 +14,14 @@ struct OrganRow {
     Kind kind;
     glm::vec3 base, tip;
     float base_radius, tip_radius;
-    double length, area;
-    std::int32_t point;  ///< whose parameters it has
+    double length, area;  ///< m, m2; where faces wear a picture, what that leaves opaque
+    std::int32_t point;   ///< whose parameters it has
 };
 
 class OrganTable {
 public:
-    explicit OrganTable(const FrameGeometry& geometry);
+    /// `run` is the folder whence textures are found.
+    OrganTable(const FrameGeometry& geometry, const std::filesystem::path& run);
 
     /// Null if the frame has no such organ.
     const OrganRow* find(const OrganKey& key) const;
@@ -31,7 +32,7 @@ public:
     std::size_t bytes() const;
 
 private:
-    void gather(const FrameGeometry& geometry);
+    void gather(const FrameGeometry& geometry, const std::filesystem::path& run);
     void keep_parameters(const FrameGeometry& geometry);
 
     std::vector<OrganRow> rows_;  ///< by key

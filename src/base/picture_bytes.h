@@ -56,16 +56,17 @@ struct PngPicture {
     int greatest = 255;        ///< what white is
     std::vector<std::uint16_t> samples;
 
+    bool has_opacity() const { return channels % 2 == 0; }
     int at(std::size_t x, std::size_t y, std::size_t channel) const {
         return samples[(y * width + x) * channels + (channels >= 3 ? channel : 0)];
     }
 };
 
-enum class Opacity { left_out, kept };
+enum class PngOpacity { left_out, kept };
 
 /// Portable Network Graphics (ISO/IEC 15948). Channels of less than 8 bits are given as 8. Throws UserError, also for
 /// more than `most` pixels.
-PngPicture read_png(const PictureBytes& bytes, Opacity opacity = Opacity::left_out, std::size_t most = most_pixels);
+PngPicture read_png(const PictureBytes& bytes, PngOpacity opacity = PngOpacity::left_out, std::size_t most = most_pixels);
 
 /// Microsoft's bitmaps, uncompressed, of 8, 24 or 32 bits a pixel. Throws UserError.
 Picture read_bitmap(const PictureBytes& bytes);

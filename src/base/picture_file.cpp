@@ -15,20 +15,23 @@ namespace {
 
 Picture black(const PictureBytes& bytes, std::size_t width, std::size_t height) {
     bytes.require_size(width, height, 512);  // no run-length code says more
-    Picture image{width, height, {}};
+    Picture image{width, height, {}, {}};
     image.pixels.resize(width * height);
     return image;
 }
 
 Picture from_png(const PngPicture& picture) {
-    Picture image{picture.width, picture.height, {}};
+    Picture image{picture.width, picture.height, {}, {}};
+    const auto eight_bits = [&](int sample) {
+        return static_cast<std::uint8_t>(picture.greatest > 255 ? sample / 256 : sample);
+    };
     for (std::size_t y = picture.height; y-- > 0;) {
         for (std::size_t x = 0; x < picture.width; ++x) {
             Picture::Colour& colour = image.pixels.emplace_back();
-            for (std::size_t k = 0; k < 3; ++k) {
-                const int sample = picture.at(x, y, k);
-                colour[k] = static_cast<std::uint8_t>(picture.greatest > 255 ? sample / 256 : sample);
-            }
+            for (std::size_t k = 0; k < 3; ++k) colour[k] = eight_bits(picture.at(x, y, k));
+            if (!picture.has_opacity()) continue;
+            const std::size_t pixel = y * picture.width + x;
+            image.opacity.push_back(eight_bits(picture.samples[(pixel + 1) * picture.channels - 1]));
         }
     }
     return image;
@@ -148,7 +151,9 @@ Picture read_picture(const std::filesystem::path& path) {
     const PictureBytes bytes(path);
     if (name.ends_with("rgb")) return read_sgi(bytes);
     if (name.ends_with("tga")) return read_targa(bytes);
-    if (name.ends_with("png") || bytes.begins_with(png_signature)) return from_png(read_png(bytes));
+    if (name.ends_with("png") || bytes.begins_with(png_signature)) {
+        return from_png(read_png(bytes, PngOpacity::kept));
+    }
     if (bytes.begins_with("BM")) return read_bitmap(bytes);
     if (bytes.begins_with("P5") || bytes.begins_with("P6")) return read_pixmap(bytes);
     bytes.fail("a picture is a file in SGI's (rgb), Targa's (tga), PNG's, Microsoft's (bmp) or netpbm's (ppm) format");

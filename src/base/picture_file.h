@@ -14,7 +14,8 @@ struct Picture {
     using Colour = std::array<std::uint8_t, 3>;  ///< red, green, blue
 
     std::size_t width = 0, height = 0;
-    std::vector<Colour> pixels;  ///< row by row, the lowest row first
+    std::vector<Colour> pixels;         ///< row by row, the lowest row first
+    std::vector<std::uint8_t> opacity;  ///< of each pixel, 0 to 255; empty: all are opaque, as those of .rgb and .tga
 
     bool empty() const { return pixels.empty(); }
     /// The pixel over a place, u and v running from 0 at the lower left corner to 1 at the upper right.

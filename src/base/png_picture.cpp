@@ -115,7 +115,7 @@ private:
 
 /// Reads the head, and asks for channels of 8 or 16 bits. Returns how often the rows must be read: more than once if
 /// they are interlaced.
-int begin(Decoder& decoder, Opacity opacity, PngPicture& picture) {
+int begin(Decoder& decoder, PngOpacity opacity, PngPicture& picture) {
     int passes = 1;
     decoder.guarded([&](png_structp png, png_infop info) {
         png_read_info(png, info);
@@ -124,14 +124,14 @@ int begin(Decoder& decoder, Opacity opacity, PngPicture& picture) {
         const bool has_key = png_get_valid(png, info, PNG_INFO_tRNS) != 0;
         if (png_get_bit_depth(png, info) < 8) png_set_packing(png);
         if (colour_type == PNG_COLOR_TYPE_GRAY) png_set_expand_gray_1_2_4_to_8(png);
-        if (!has_palette && has_key && opacity == Opacity::kept) png_set_tRNS_to_alpha(png);
+        if (!has_palette && has_key && opacity == PngOpacity::kept) png_set_tRNS_to_alpha(png);
         passes = png_set_interlace_handling(png);
         png_read_update_info(png, info);
         const bool has_opacity = has_palette ? has_key : (png_get_color_type(png, info) & PNG_COLOR_MASK_ALPHA) != 0;
         picture.width = png_get_image_width(png, info);
         picture.height = png_get_image_height(png, info);
         picture.channels =
-            (colour_type & PNG_COLOR_MASK_COLOR ? 3u : 1u) + (has_opacity && opacity == Opacity::kept ? 1u : 0u);
+            (colour_type & PNG_COLOR_MASK_COLOR ? 3u : 1u) + (has_opacity && opacity == PngOpacity::kept ? 1u : 0u);
         picture.greatest = png_get_bit_depth(png, info) == 16 ? 65535 : 255;
     });
     return passes;
@@ -150,7 +150,7 @@ std::size_t bits_of_pixel(const PictureBytes& bytes) {
 
 }  // namespace
 
-PngPicture read_png(const PictureBytes& bytes, Opacity opacity, std::size_t most) {
+PngPicture read_png(const PictureBytes& bytes, PngOpacity opacity, std::size_t most) {
     if (!bytes.begins_with(png_signature)) bytes.fail("this is no PNG picture");
     // Before libpng, whose messages do not say the size.
     constexpr std::size_t header = png_signature.size() + 8;

@@ -3,6 +3,8 @@
 #include "espalier/base/error.h"
 #include "espalier/base/random.h"
 
+#include "formats/twig_texture.h"
+
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -121,7 +123,7 @@ private:
 }  // namespace
 
 LeafPicture leaf_picture(const LeafTexture& texture) {
-    return Painter(texture).paint();
+    return texture.form == LeafTexture::Form::twig ? twig_picture(texture) : Painter(texture).paint();
 }
 
 }  // namespace espalier::formats

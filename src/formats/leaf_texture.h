@@ -1,5 +1,5 @@
-// A picture of many leaves for one card: coloured ellipses over a transparent ground (after the particles of Reeves &
-// Blau 1985).
+// A picture of many leaves for one card, over a transparent ground: a twig, or ellipses (after the particles of Reeves
+// & Blau 1985).
 #pragma once
 
 #include "base/png_file.h"
@@ -11,7 +11,9 @@
 namespace espalier::formats {
 
 struct LeafTexture {
-    std::size_t blobs = 60;
+    enum class Form : std::uint8_t { blobs, twig };
+    Form form = Form::blobs;
+    std::size_t blobs = 60;  ///< how many; of a twig, its leaves
     std::array<std::uint8_t, 3> rgb{74, 122, 42};
     std::size_t size = 512;  ///< pixels along a side
     double coverage = 0.25;  ///< share of the picture that the blobs would cover side by side
@@ -24,8 +26,10 @@ struct LeafPicture {
     std::size_t overlapping = 0;  ///< blobs for which no free place was found
 };
 
-/// Blobs lie apart while there is room, each inside the picture. The colour of transparent pixels is that of leaves, so
-/// that filtered edges do not darken. Throws UserError if blobs would be narrower than two pixels.
+/// A twig stands on the middle of the lower edge and bears pointed leaves with veins, in turn on its two sides; they
+/// may lie over each other. Blobs lie apart while there is room, each inside the picture. The colour of transparent
+/// pixels is that of leaves, so that filtered edges do not darken. Throws UserError if blobs would be narrower than two
+/// pixels.
 LeafPicture leaf_picture(const LeafTexture& texture);
 
 }  // namespace espalier::formats

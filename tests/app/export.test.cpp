@@ -163,6 +163,8 @@ TEST_CASE("leaf-texture draws a picture, and explains what it cannot draw", "[ex
     CHECK(outcome.code == 0);
     CHECK(outcome.out == "made/leaves.png: 9 leaves, 0 of them over others\n");
     CHECK(exists(place, "made/leaves.png"));
+    CHECK(place.run("leaf-texture --form twig --size 64 --output twig.png").out.find("13 leaves") != std::string::npos);
+    CHECK(place.run("leaf-texture --form bush --output a.png").err.find("expected blobs or twig") != std::string::npos);
     CHECK(place.run("leaf-texture --output a.jpg").err.find("a .png file") != std::string::npos);
     CHECK(place.run("leaf-texture --output a.png --colour green").err.find("such as #4a7a2a") != std::string::npos);
     CHECK(place.run("leaf-texture --output a.png --blobs 9999 --size 16").err.find("too many") != std::string::npos);

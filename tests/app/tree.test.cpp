@@ -263,6 +263,27 @@ TEST_CASE_METHOD(Nursery, "an early end of growth has an exit code and a reason,
     end("--height 400 --stem 2 --age 3", 4, "no-point-in-reach");
 }
 
+TEST_CASE_METHOD(Workplace, "what an early end of growth advises are options of the command", "[tree]") {
+    const std::string help = run("tree --help").out;
+    const auto advised = [&](const std::string& options, int code) {
+        const Outcome outcome = run("tree --leaves 0 --sides 3 --node-distance 0.5 " + options + " --output t.stl");
+        INFO(options << ": " << outcome.err);
+        CHECK(outcome.code == code);
+        CHECK(outcome.err.find("cloud") == std::string::npos);
+        CHECK(outcome.err.find("influence") == std::string::npos);
+        const std::string advice = outcome.err.substr(outcome.err.find(": choose ") + 1);
+        std::size_t count = 0;
+        for (std::size_t at = advice.find("--"); at != std::string::npos; at = advice.find("--", at + 2), ++count) {
+            const std::string option = advice.substr(at, advice.find_first_of(" ,;\n", at) - at);
+            CHECK(help.find(option + " ") != std::string::npos);
+        }
+        return count;
+    };
+    CHECK(advised("--age 200", 3) == 4);
+    CHECK(advised("--crown-width 60 --crown-depth 60 --crown-height 60 --cut-below 0.5 --perception 20 --age 60", 4) ==
+          3);
+}
+
 TEST_CASE_METHOD(Nursery, "leaves wear a picture of one's own, wherever the run is read from", "[tree]") {
     write("environments/tree.toml",
           text("environments/tree.toml") + "[[plant.stage]]\nstage = \"leaves\"\ntexture = \"../models/plain.png\"\n");
@@ -369,6 +390,19 @@ TEST_CASE_METHOD(Workplace, "a tree with leaves keeps the trunk that they stand 
         CHECK(lowest < 0.05);
         CHECK(crown > 4);
     }
+}
+
+TEST_CASE_METHOD(Workplace, "a tree has the leaf area index that was asked for, as analyse measures it", "[tree]") {
+    for (const std::string options :
+         {"2 --seed 41", "4 --leaf-kind 3 --seed 42", "3 --leaf-shade 0.3 --preset shrub"}) {
+        INFO(options);
+        REQUIRE(run("tree --quiet --age 24 --leaf-area-index " + options + " --run kept --output t.stl").code == 0);
+        const json measures = measures_of(*this, "kept");
+        CHECK(measures["leaf_area_index"].get<double>() == Approx(options[0] - '0').epsilon(0.15));
+        fs::remove_all(path() / "kept");
+    }
+    const Outcome both = run("tree --age 3 --leaves 2 --leaf-area-index 3 --output t.stl");
+    CHECK_THAT(both.err, Contains("--leaves is not used"));
 }
 
 TEST_CASE_METHOD(Workplace, "a run takes the settings of tree, and the tree by default warns of nothing", "[app]") {

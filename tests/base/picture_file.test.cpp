@@ -191,10 +191,19 @@ TEST_CASE("opacity is kept where it is asked for", "[base]") {
     picture.pixels = {{1, 2, 3, 4}, {5, 6, 7, 255}};
     const std::filesystem::path file = folder.write("leaf.png", png_bytes(picture));
     CHECK(whole_png(file).samples == std::vector<std::uint16_t>{1, 2, 3, 5, 6, 7});
-    const PngPicture kept = read_png(PictureBytes(file), Opacity::kept);
+    const PngPicture kept = read_png(PictureBytes(file), PngOpacity::kept);
     CHECK(kept.channels == 4);
     CHECK(kept.samples == std::vector<std::uint16_t>{1, 2, 3, 4, 5, 6, 7, 255});
-    CHECK_THROWS_WITH(read_png(PictureBytes(file), Opacity::kept, 1), Contains("2 x 1 pixels cannot be read"));
+    CHECK_THROWS_WITH(read_png(PictureBytes(file), PngOpacity::kept, 1), Contains("2 x 1 pixels cannot be read"));
+}
+
+TEST_CASE("the opacity of a PNG is read; pictures without one have none", "[base]") {
+    const TemporaryFolder folder;
+    OpacityPicture picture{2, 2, {{1, 2, 3, 0}, {4, 5, 6, 255}, {7, 8, 9, 128}, {10, 11, 12, 1}}};
+    const Picture read = read_picture(folder.write("a.png", png_bytes(picture)));
+    CHECK(read.opacity == std::vector<std::uint8_t>{128, 1, 0, 255});  // the lowest row first
+    CHECK(read.pixels[0] == Picture::Colour{7, 8, 9});
+    CHECK(read_picture(png(folder)).opacity.empty());
 }
 
 TEST_CASE("a PNG that is damaged, or uses a colour its palette lacks, is refused", "[base]") {

@@ -318,7 +318,7 @@ double least_lead(const std::map<std::string, double>& settings, std::uint64_t s
 
 TEST_CASE("a trunk through the whole crown ends at its top and is the thickest axis at every height",
           "[colonization]") {
-    const std::map<std::string, double> bare{{"TRUNK_IN_CROWN", 1}, {"LEAVES", 0}, {"STEM_LENGTH", 0}};
+    const std::map<std::string, double> bare{{"TRUNK_IN_CROWN", 1}, {"LEAVES", 0}, {"STEM_LENGTH", 0}, {"ROOTS", 0}};
     const auto with = [&](std::map<std::string, double> more) {
         more.insert(bare.begin(), bare.end());
         return more;
@@ -350,7 +350,32 @@ TEST_CASE("the setting `gnarly` makes branches wind more and more, and hardly ch
             before = now;
             if (gnarly == 0) straight = internodes;
             CHECK(internodes > 0.75 * straight);
-            CHECK(internodes < 1.75 * straight);
+            CHECK(internodes < 1.4 * straight);
+        }
+    }
+}
+
+TEST_CASE("winding trees have about as many tips as straight ones, young or when their crown is full",
+          "[colonization]") {
+    for (const int age : {30, 80}) {
+        for (const auto& crown : {std::array{6.0, 6.0}, {8.0, 3.0}, {3.0, 8.0}}) {
+            double straight = 0;
+            for (const double gnarly : {0.0, 0.5, 1.0}) {
+                double tips = 0;
+                for (std::uint64_t seed = 11; seed <= 13; ++seed) {
+                    tips += static_cast<double>(ends(*tree({{"GNARLY", gnarly},
+                                                            {"AGE", age},
+                                                            {"LEAVES", 0},
+                                                            {"CROWN_WIDTH", crown[0]},
+                                                            {"CROWN_DEPTH", crown[0]},
+                                                            {"CROWN_HEIGHT", crown[1]}},
+                                                           seed)));
+                }
+                INFO(age << " steps, " << crown[0] << " m wide, gnarly " << gnarly << ": " << tips / 3);
+                if (gnarly == 0) straight = tips;
+                CHECK(tips > 0.7 * straight);
+                CHECK(tips < 1.4 * straight);
+            }
         }
     }
 }

@@ -122,3 +122,35 @@ TEST_CASE("blobs too small to be seen are refused", "[leaf-texture]") {
     texture.blobs = 1000;
     CHECK_THROWS_WITH(leaf_picture(texture), Contains("1000 blobs") && Contains("larger --size"));
 }
+
+TEST_CASE("a twig stands on the middle of the lower edge, its leaves hang together, and the rim stays free",
+          "[leaf-texture]") {
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+        INFO("seed " << seed);
+        LeafTexture texture;
+        texture.form = LeafTexture::Form::twig;
+        texture.blobs = 12;
+        texture.coverage = 0.4;
+        texture.size = 200;
+        texture.seed = seed;
+        const OpacityPicture picture = leaf_picture(texture).picture;
+        CHECK(count_of_blobs(picture) == 1);
+        CHECK(covered_share(picture) > 0.2);
+        CHECK(covered_share(picture) < 0.45);
+        std::size_t foot = 0;
+        for (std::size_t i = 0; i < 200; ++i) {
+            const bool is_foot = picture.at(i, 199)[3] > 0;
+            foot += is_foot;
+            if (is_foot) CHECK(std::abs(double(i) - 100) < 10);
+            CHECK(picture.at(i, 0)[3] == 0);
+            CHECK(picture.at(0, i)[3] == 0);
+            CHECK(picture.at(199, i)[3] == 0);
+        }
+        CHECK(foot > 0);
+    }
+    LeafTexture crowded;
+    crowded.form = LeafTexture::Form::twig;
+    crowded.blobs = 5000;
+    crowded.size = 64;
+    CHECK_THROWS_WITH(leaf_picture(crowded), Contains("5000 leaves") && Contains("larger --size"));
+}

@@ -128,6 +128,16 @@ TEST_CASE("rose-leaf: two polygons a step, halves that mirror each other, teeth 
     CHECK(before[1] == after[1]);
 }
 
+TEST_CASE("rose-leaf: without fold and bend the leaf is flat, and with them both halves rise alike", "[leaves]") {
+    LonePlant flat("models/leaves/rose-leaf.l", {{"FOLD", "0"}, {"BEND", "0"}}), leaf("models/leaves/rose-leaf.l");
+    flat.grow(12);
+    leaf.grow(12);
+    for (const glm::dvec3& vertex : flat.interpretation.geometry.vertices) CHECK(std::abs(vertex.z) < 1e-9);
+    const Box& bounds = leaf.interpretation.geometry.bounds;
+    CHECK(bounds.upper.z - bounds.lower.z > 0.1 * (bounds.upper.x - bounds.lower.x));
+    CHECK(bounds.upper.x == Approx(-bounds.lower.x));
+}
+
 TEST_CASE("compound-leaf: apices follow a(n) = a(n-1) + 2 a(n-1-D)", "[leaves]") {
     for (auto [figure, delay] : {std::pair{1, 0}, std::pair{2, 1}, std::pair{3, 2}, std::pair{4, 4}, std::pair{5, 7}}) {
         LonePlant leaf("models/leaves/compound-leaf.l", {{"FIGURE", std::to_string(figure)}});

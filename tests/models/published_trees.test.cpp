@@ -7,6 +7,7 @@
 
 #include <map>
 
+using Catch::Matchers::Contains;
 using namespace espalier;
 
 namespace {
@@ -241,9 +242,15 @@ TEST_CASE("ramification: trees have the Strahler number and the matrix that were
     CHECK(squares / parts < 1.5);  // errors of chance have a mean square of 1
 }
 
-TEST_CASE("ramification: a matrix whose rows do not sum to 1 ends the run with a message", "[trees]") {
-    const LonePlant tree = derived_tree("ramification", {{"MATRIX", "3"}, {"ORDER", "3"}, {"MINE", "0.3, 0.6"}}, 1);
-    CHECK(tree.counts().at("Apex") == 1);
+TEST_CASE("ramification: a matrix that is none is an error, and the default one has a row for each order", "[trees]") {
+    const auto derive = [](const std::string& order, const std::string& matrix) {
+        return derived_tree("ramification", {{"MATRIX", "3"}, {"ORDER", order}, {"MINE", matrix}}, 1);
+    };
+    CHECK_THROWS_WITH(derive("2", "0.3, 0.6"),
+                      Contains("ramification.l:") && Contains("row 2 of the matrix sums to 0.9"));
+    CHECK_THROWS_WITH(derive("2", "-0.5, 1.5"), Contains("row 2 of the matrix has a negative part: -0.5"));
+    CHECK_THROWS_WITH(derive("3", "0.3, 0.7"), Contains("MINE has no row 3, and ORDER is 3: add its 3 parts"));
+    CHECK(derived_tree("ramification", {{"MATRIX", "3"}}, 1).counts().at("Apex") > 64);
 }
 
 TEST_CASE("ramification: widths depend on the order alone, sides are by chance, in turn or one", "[trees]") {

@@ -210,7 +210,9 @@ TEST_CASE("ternary: gravity opens the crown; without elasticity the branches lea
 TEST_CASE("weeping: at each segment the angle to the tropism shrinks by e times its sine, until it is parallel",
           "[trees]") {
     const double e = 0.15;
-    LonePlant tree("models/trees/weeping.l", {{"E", "0.15"}}), stiff("models/trees/weeping.l", {{"E", "0"}});
+    const Defines limp{{"E", "0.15"}, {"ANGLE", "80"}, {"SEGMENTS", "80"}, {"BRANCHES", "12"}},
+        firm{{"E", "0"}, {"SEGMENTS", "80"}, {"BRANCHES", "12"}};
+    LonePlant tree("models/trees/weeping.l", limp), stiff("models/trees/weeping.l", firm);
     for (LonePlant* each : {&tree, &stiff}) {
         each->turtle.tropisms = {tropism_towards({0, -1, 0})};
         each->grow(60);

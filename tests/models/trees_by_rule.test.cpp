@@ -257,7 +257,11 @@ TEST_CASE("buds: with vigour V a bud rests with probability PAUSE ^ V, and inter
         std::vector<double> lengths;
         for (std::uint64_t seed = 500; seed < 800; ++seed) {
             LonePlant axis("models/trees/buds.l",
-                           {{"DEATH", "0"}, {"BRANCHING", "0"}, {"PAUSE", "0.3"}, {"VIGOUR", std::to_string(vigour)}},
+                           {{"DEATH", "0"},
+                            {"BRANCHING", "0"},
+                            {"PAUSE", "0.3"},
+                            {"LENGTH", "1"},
+                            {"VIGOUR", std::to_string(vigour)}},
                            seed);
             axis.grow(40);
             for (const Internode& internode : axis.interpretation.geometry.internodes) {

@@ -225,6 +225,47 @@ TEST_CASE("stage: a crown's shadow falls on the ground away from the sun", "[pic
     CHECK(lit[0] < 255);
 }
 
+TEST_CASE("stage: roots are seen through the ground, and darker than beside it", "[pictures]") {
+    if (!can_draw()) return;
+    HandmadePlant plant = stem(0, 0, 0);
+    plant.add_internode(3, 1, 1, 1, 1, {0, 0, 0}, {0, -1.5, 0}, 0.5);
+    plant.add_internode(4, 1, 1, 2, 1, {0, 1, 0}, {1.5, 1.5, 1.5}, 0.5);
+    plant.add_internode(5, 1, 1, 3, 1, {0, 1, 0}, {-1.5, 1.5, -1.5}, 0.5);
+    Pictured pictured({&plant});
+    PictureStyle style = Pictured::plain();
+    const glm::dvec3 root{0, -0.2, 0};
+    auto image = pictured.picture(style, {0, 20});
+    const Pixel bare = pictured.seen(*image, root);
+    style.ground = true;
+    image = pictured.picture(style, {0, 20});
+    const Pixel below = pictured.seen(*image, root), beside = pictured.seen(*image, {0.5, -0.2, 0});
+    CHECK_FALSE(is_white(beside));
+    CHECK(std::abs(below[0] - bare[0]) > 5);     // through the ground
+    CHECK(std::abs(below[0] - beside[0]) > 25);  // but still seen
+}
+
+TEST_CASE("stage: roots stand below feet; what a plane would cut through is no root", "[pictures]") {
+    HandmadePlant rooted = stem(0, 0, 0);
+    rooted.add_internode(3, 1, 1, 1, 1, {0, 0, 0}, {0.7, -1.5, 0}, 0.5);
+    HandmadePlant neighbour = stem(1, 30, 0);
+    neighbour.add_internode(3, 1, 1, 1, 1, {30, 0, 0}, {30, -1.5, 0}, 0.5);
+    HandmadePlant arch = stem(0, 0, 0);
+    arch.add_internode(3, 1, 1, 1, 1, {0, 2, 0}, {2, 1, 0}, 0.5);
+    arch.add_internode(4, 3, 1, 1, 1, {2, 1, 0}, {2, -1, 0}, 0.5);
+    const auto surveyed = [](const std::vector<const HandmadePlant*>& plants) {
+        const Pictured pictured(plants);
+        const Stage stage(*pictured.run, Pictured::plain());
+        const RecordedFrame* const frame = &pictured.run->frames().back();
+        return stage.survey(std::span(&frame, 1));
+    };
+    const HandmadePlant upright = stem(0, 0, 0);
+    CHECK_FALSE(surveyed({&upright}).grows_beneath());
+    CHECK(surveyed({&rooted, &neighbour}).grows_beneath());
+    CHECK(surveyed({&rooted, &neighbour}).is_rooted());
+    CHECK(surveyed({&arch}).grows_beneath());
+    CHECK_FALSE(surveyed({&arch}).is_rooted());
+}
+
 TEST_CASE("stage: light paths draw the plants where the graphics card does, with a shadow away from the sun",
           "[pictures][light]") {
     if (!can_draw()) return;

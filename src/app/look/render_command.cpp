@@ -186,8 +186,9 @@ private:
             "--background", background_,
             "light, dark, transparent or #rrggbb; default: that of the view file; else light, or dark where most "
             "colours are hardly seen on white");
-        ground_option_ = app().add_flag("--ground,!--no-ground", ground_,
-                                        "with or without a ground; default: with, if nothing grows below it");
+        ground_option_ = app().add_flag(
+            "--ground,!--no-ground", ground_,
+            "with or without a ground at height 0; default: with, unless something other than roots is below it");
         axes_.emplace(app());
         app().add_flag("--no-shade", no_shade_, "draw no shadows; faster");
         app().add_flag("--no-legend", no_legend_, "draw no colour bars");

@@ -15,6 +15,7 @@
 #include "base/json_text.h"
 #include "base/number.h"
 #include "base/text.h"
+#include "environment/markers/end_of_growth.h"
 #include "mesh_file_options.h"
 
 #include <fmt/format.h>
@@ -207,6 +208,15 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
         if (!preset_.empty()) values.read(kind_->preset(preset_));
         if (!settings_.empty()) values.read(settings_);
         for (const auto& [setting, text] : said_) values.set(*setting, text);
+        const auto said = [this](const char* name) {
+            const auto is_it = [&](const auto& one) { return one.first->name == name; };
+            const auto found = std::find_if(said_.rbegin(), said_.rend(), is_it);
+            return found == said_.rend() ? nullptr : &found->second;
+        };
+        const std::string* const index = said("LEAF_AREA_INDEX");
+        if (!arguments_.quiet && said("LEAVES") && index && finite_number(*index).value_or(0) > 0) {
+            fmt::print(stderr, "warning: --leaves is not used: --leaf-area-index says how many leaves there are\n");
+        }
     }
 
     struct Grown {
@@ -226,6 +236,7 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
             arguments_.overrides.emplace_back("plant.0.define." + name, value);
         }
         dress_leaves();
+        arguments_.warn = [this](const std::vector<Diagnostic>& warnings) { warn(warnings); };
         const ReadLog inputs;
         const Scene scene = scene_of(arguments_);
         if (!arguments_.quiet) print_warnings(scene.notes.diagnostics);
@@ -234,6 +245,35 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
         if (InterruptibleRun::interrupted()) return std::nullopt;
         const RecordedFrame frame{last.step(), last.time(), {}, {}, last.geometry()};
         return Grown{RecordedRun(result.record, {frame}), scene.seed, end_of(last.quantities().back())};
+    }
+
+    /// The remedy of a scene's process is one for its file; here options have one.
+    void warn(std::vector<Diagnostic> warnings) const {
+        for (Diagnostic& warning : warnings) {
+            const std::string end = environment::told_end_of_growth(warning.message);
+            if (!end.empty()) warning = {warning.severity, {}, end + remedy(warning.message)};
+        }
+        print_warnings(warnings);
+    }
+
+    std::string remedy(const std::string& message) const {
+        const bool out_of_reach = message.find("in the reach") != std::string::npos;
+        std::vector<std::string> options;
+        const auto offer = [&](std::string_view option, const char* what) {
+            for (const ModelSetting& setting : kind_->values.settings()) {
+                if (option_name(setting) == option) options.push_back(fmt::format("{} --{}", what, option));
+            }
+        };
+        if (out_of_reach) {
+            options.push_back("another --seed");
+            offer("density-begin", "a higher");
+            offer("node-distance", "a larger");
+        } else {
+            for (const char* size : {"crown-width", "crown-depth", "crown-height"}) offer(size, "a larger");
+            offer("age", "a lower");
+        }
+        const std::string scene = fmt::format("or change its process in {}", kind_->scene.string());
+        return fmt::format(": choose {}{}{}", fmt::join(options, ", "), options.empty() ? "" : "; ", scene);
     }
 
     /// The stages of the scene whose leaves are cards with a picture; blossoms and fruit have an id.

@@ -78,7 +78,7 @@ vtkSmartPointer<vtkImageData> read_image(const fs::path& path) {
         if (!is_named_ours(path)) {
             const PictureBytes bytes(path);
             if (bytes.begins_with(png_signature)) {
-                return image_of(read_png(bytes, Opacity::kept, most_pixels_of_texture));
+                return image_of(read_png(bytes, PngOpacity::kept, most_pixels_of_texture));
             }
             if (bytes.begins_with("\xff\xd8")) return read_by<vtkJPEGReader>(path);
             if (bytes.begins_with("II") || bytes.begins_with("MM")) return read_by<vtkTIFFReader>(path);
@@ -137,6 +137,11 @@ vtkSmartPointer<vtkImageData> texture_image(const fs::path& run, const std::stri
         if (const auto image = is_bark(file) ? bark_image(path) : read_image(path)) return image;
     }
     return nullptr;
+}
+
+fs::path texture_path(const fs::path& run, const std::string& file) {
+    const std::vector<fs::path> places = places_of(run, file);
+    return places.empty() ? fs::path() : places.front();
 }
 
 std::optional<BarkRelief> bark_relief(const fs::path& run, const std::string& file) {

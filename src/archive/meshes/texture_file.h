@@ -19,6 +19,9 @@ namespace espalier::archive {
 /// has its own colour. Throws UserError for wrong settings of bark.
 vtkSmartPointer<vtkImageData> texture_image(const std::filesystem::path& run, const std::string& file);
 
+/// The first file that a texture's name may mean; "" if there is none.
+std::filesystem::path texture_path(const std::filesystem::path& run, const std::string& file);
+
 /// The relief of a texture.
 struct ReliefImages {
     vtkSmartPointer<vtkImageData> normals;  ///< in tangent space; null where a texture is flat, as all but bark are

@@ -1,5 +1,6 @@
 #include "environment/markers/cloud.h"
 
+#include "espalier/base/math.h"
 #include "espalier/environment/shape.h"
 
 #include "base/parallel.h"
@@ -13,6 +14,7 @@
 #include <atomic>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace espalier::environment {
 namespace {
@@ -106,14 +108,53 @@ private:
     RandomKey key_;
 };
 
-/// Takes away what lies behind a rim that retreats in places, by up to `rough` of the radius.
-void roughen(std::vector<glm::dvec3>& points, double rough, RandomKey key) {
-    const RimNoise noise(key);
-    std::erase_if(points, [&](const glm::dvec3& point) {
-        const double distance = glm::length(point);
-        return distance > 1 - rough && distance > 1 - rough * noise.at(point / distance);
-    });
-}
+/// A layer of the unit ball behind whose rim some is taken away, by up to `rough` of the radius. The rim that is left
+/// is stretched towards each of the six sides until it reaches the ball's, so that a crown is as wide as it should be.
+class RaggedBall {
+public:
+    RaggedBall(double rough, double lower, double upper, RandomKey key) : rough_(rough), noise_(key) {
+        const auto [low, high] = sides(-1, 1, {1, 1, 1});
+        below_.y = -low.y;
+        above_.y = high.y;
+        const double middle = std::clamp(0.0, lower, upper), widest = std::sqrt(1 - middle * middle);
+        const auto [narrow, wide] = sides(unstretched(lower, 1), unstretched(upper, 1), {1, 0, 1});
+        for (const int axis : {0, 2}) {
+            below_[axis] = std::max(-narrow[axis] / widest, 1 - rough);
+            above_[axis] = std::max(wide[axis] / widest, 1 - rough);
+        }
+    }
+
+    bool encloses(const glm::dvec3& point) const {
+        const glm::dvec3 place(unstretched(point.x, 0), unstretched(point.y, 1), unstretched(point.z, 2));
+        const double distance = glm::length(place);
+        return distance <= 1 - rough_ || distance <= rim(place / distance);
+    }
+
+private:
+    double rim(const glm::dvec3& direction) const { return 1 - rough_ * noise_.at(direction); }
+    double unstretched(double at, int axis) const { return at * (at < 0 ? below_ : above_)[axis]; }
+
+    /// The farthest places of the layer between two heights, of those axes that count.
+    std::pair<glm::dvec3, glm::dvec3> sides(double lower, double upper, const glm::dvec3& counts) const {
+        constexpr int directions = 8192;                    // some fifty for each place where the noise can change
+        constexpr double golden_angle = 2.399963229728653;  // pi (3 - sqrt 5)
+        glm::dvec3 low(0), high(0);
+        for (int i = 0; i < directions; ++i) {
+            const double y = 1 - (2 * i + 1.0) / directions, across = std::sqrt(1 - y * y);
+            const auto [sine, cosine] = math::sine_and_cosine(golden_angle * i);
+            const glm::dvec3 direction(across * cosine, y, across * sine);
+            const double reach = std::min(rim(direction), (y > 0 ? upper : lower) / y);
+            if (reach * y < lower - 1e-12 || reach < 0) continue;
+            low = glm::min(low, counts * reach * direction);
+            high = glm::max(high, counts * reach * direction);
+        }
+        return {low, high};
+    }
+
+    double rough_;
+    RimNoise noise_;
+    glm::dvec3 below_{1}, above_{1};  ///< how far it would reach on the lower and the upper side of each axis
+};
 
 /// A layer of the unit ball times the radii (Brzoska 2019, section 5.2.1).
 std::vector<glm::dvec3> ellipsoid(const Settings& table, const Filling& filling) {
@@ -136,8 +177,9 @@ std::vector<glm::dvec3> ellipsoid(const Settings& table, const Filling& filling)
     };
     std::vector<glm::dvec3> points =
         fill({{-1, lower, -1}, {1, upper, 1}}, count, filling, in_ball, table.place("radii"));
-    if (table.number_or("rough", 0, Range::between(0, 0.9)) > 0) {
-        roughen(points, table.number("rough", Range::between(0, 0.9)), filling.key());
+    if (const double rough = table.number_or("rough", 0, Range::between(0, 0.9)); rough > 0) {
+        const RaggedBall ragged(rough, lower, upper, filling.key());
+        std::erase_if(points, [&](const glm::dvec3& point) { return !ragged.encloses(point); });
     }
     for (glm::dvec3& point : points) point = base + radii * (point - glm::dvec3(0, lower, 0));
     return points;
@@ -224,7 +266,7 @@ const char* const cloud_help =
     base     [0, 0, 0] m; the middle of the lower end of the ellipsoid
     below    0, 0 to 1; share of the ellipsoid's height that is cut off at the lower end
     above    0, 0 to 1; the same at the upper end
-    rough    0, 0 to 0.9; by what share of the radii its rim retreats in places
+    rough    0, 0 to 0.9; by what share of the radii its rim retreats in places; it still reaches the six sides
     shape    none; { shape = "...", ... }: points in a solid of `espalier list shapes`
     points   none, m; [[x, y, z], ...]: these points
     density  20 points/m3, > 0; how many points an ellipsoid or a solid has

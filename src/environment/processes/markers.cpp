@@ -7,6 +7,7 @@
 
 #include "environment/markers/cloud.h"
 #include "environment/markers/colonization.h"
+#include "environment/markers/end_of_growth.h"
 #include "geometry/grids/voxel_values.h"
 
 #include <fmt/format.h>
@@ -143,18 +144,16 @@ private:
     void tell_the_end() {
         if (!ended_ || !warnings_) return;
         Place place = place_;
-        std::string what = fmt::format("the points of '{}' pull every node where it has grown already", name_);
+        std::string what = fmt::format("the points of '{}' pull every node where it has grown already", name_), remedy;
         if (points_.left() == 0) {
-            what = fmt::format("no point of '{}' is left: choose a larger or denser cloud, or fewer steps", name_);
+            what = fmt::format("no point of '{}' is left", name_);
+            remedy = "a larger or denser cloud, or fewer steps";
         } else if (in_reach_ == 0) {
             place = place_of_influence_;
-            what = fmt::format(
-                "none of the {} points left of '{}' is in the reach of a node: choose another seed, a "
-                "larger 'influence', a denser cloud, or one that is nearer to the plant",
-                points_.left(), name_);
+            what = fmt::format("none of the {} points left of '{}' is in the reach of a node", points_.left(), name_);
+            remedy = "another seed, a larger 'influence', a denser cloud, or one that is nearer to the plant";
         }
-        warnings_->push_back(
-            {Diagnostic::Severity::warning, place, fmt::format("step {}: growth has ended: {}", *ended_, what), ""});
+        warnings_->push_back({Diagnostic::Severity::warning, place, end_of_growth(*ended_, what, remedy), ""});
         warnings_ = nullptr;
     }
 

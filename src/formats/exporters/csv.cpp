@@ -2,10 +2,10 @@
 #include "espalier/base/file.h"
 #include "espalier/formats/exporter.h"
 
+#include "archive/facet_areas.h"
 #include "archive/meshes/surface_mesh.h"
 #include "base/csv_file.h"
 #include "base/text.h"
-#include "geometry/vectors.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -105,6 +105,7 @@ private:
     // there.
     void add_organs(const RecordedFrame& frame, const FrameGeometry& geometry) {
         const FrameAttributes& of = geometry.of_cells;
+        const archive::FacetAreas areas(geometry, job_.run.folder());
         for (std::size_t cell = 0; cell < geometry.polygons.size();) {
             const std::size_t row = geometry.polygons.first + cell;
             std::size_t end = cell + 1;
@@ -113,12 +114,13 @@ private:
                    of.kinds[geometry.polygons.first + end] == of.kinds[row]) {
                 ++end;
             }
-            if (wanted(of.plants[row])) add_organ(frame, geometry, cell, end);
+            if (wanted(of.plants[row])) add_organ(frame, geometry, areas, cell, end);
             cell = end;
         }
     }
 
-    void add_organ(const RecordedFrame& frame, const FrameGeometry& geometry, std::size_t first, std::size_t end) {
+    void add_organ(const RecordedFrame& frame, const FrameGeometry& geometry, const archive::FacetAreas& areas,
+                   std::size_t first, std::size_t end) {
         const std::size_t row = geometry.polygons.first + first;
         const auto corners = geometry.polygons[first];
         if (corners.empty()) return;
@@ -132,7 +134,7 @@ private:
             for (std::size_t i = 0; i < polygon.size(); ++i) {
                 if (glm::distance(corner(i), base) > glm::distance(farthest, base)) farthest = corner(i);
             }
-            area += glm::length(area_vector(polygon.size(), corner));
+            area += areas.of(cell);
         }
         const FrameAttributes& of = geometry.of_cells;
         begin_row(frame, geometry,

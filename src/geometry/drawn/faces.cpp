@@ -3,13 +3,19 @@
 #include "espalier/base/math.h"
 
 #include "geometry/drawn/organ_mesh.h"
+#include "geometry/opacity.h"
+#include "geometry/polygon_texture.h"
 #include "geometry/vectors.h"
 
 #include <glm/geometric.hpp>
 
 #include <array>
 #include <cmath>
+#include <map>
+#include <memory>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 namespace espalier::geometry {
 namespace {
@@ -28,6 +34,10 @@ FaceOwner owner_of(std::uint32_t plant, const MeshPiece& piece) {
     return {plant, piece.module, kind, piece.colour, piece.look.back_colour, piece.look.texture, of};
 }
 
+glm::dvec3 unit_normal(std::span<const glm::dvec3> corners) {
+    return unit_or(area_vector(corners.size(), [&](std::size_t i) { return corners[i]; }), {0, 0, 1});
+}
+
 // A square of its area.
 std::array<glm::dvec3, 4> square_of(const Organ& disc) {
     const double half = disc.size.x / 4 * std::sqrt(std::numbers::pi);
@@ -41,6 +51,43 @@ glm::dvec3 placed_point(const Organ& organ, const glm::dvec3& point) {
 }
 
 }  // namespace
+
+/// The opacities of a plant's textures, each asked for once.
+class WornPictures {
+public:
+    explicit WornPictures(const Shapes* shapes) : known_(shapes ? shapes->textures.size() : 0), shapes_(shapes) {}
+
+    /// Null if there is no such texture, or no hole in it.
+    const Opacity* of(std::uint16_t texture) {
+        if (texture == 0 || texture > known_.size()) return nullptr;
+        std::optional<std::shared_ptr<const Opacity>>& known = known_[texture - 1u];
+        if (!known) known = Opacity::of(shapes_->textures[texture - 1u].file);
+        return known->get();
+    }
+
+    /// The opaque share of each face of a surface; empty if all are opaque.
+    const std::vector<double>& of(const Organ& organ, const SurfaceMeshes::Entry& surface, bool as_whole) {
+        const auto [found, is_new] = shares_.try_emplace({organ.surface, organ.look.texture});
+        const Opacity* const opacity = is_new ? of(organ.look.texture) : nullptr;
+        if (!opacity) return found->second;
+        std::vector<glm::dvec2> corners;
+        std::size_t next = 0;
+        for (const std::uint32_t count : surface.mesh.faces) {
+            corners.clear();
+            for (const std::size_t end = next + count; next < end; ++next) {
+                const std::uint32_t vertex = surface.mesh.indices[next];
+                corners.push_back(as_whole ? surface.whole[vertex] : surface.mesh.vertices[vertex].uv);
+            }
+            found->second.push_back(opacity->over(corners));
+        }
+        return found->second;
+    }
+
+private:
+    std::vector<std::optional<std::shared_ptr<const Opacity>>> known_;
+    std::map<std::pair<std::uint32_t, std::uint16_t>, std::vector<double>> shares_;
+    const Shapes* shapes_;
+};
 
 glm::dvec3 DrawnFace::area() const {
     return area_vector(corners.size(), [this](std::size_t i) { return corners[i]; });
@@ -58,33 +105,46 @@ void DrawnFaces::clear() {
     ends_.assign(1, 0);
 }
 
-void DrawnFaces::add(const FaceOwner& owner, std::span<const glm::dvec3> corners) {
-    if (corners.empty()) return;
+void DrawnFaces::add(const FaceOwner& owner, std::span<const glm::dvec3> corners, double opaque) {
+    if (corners.empty() || !(opaque > 0)) return;
     owners_.push_back(owner);
     corners_.insert(corners_.end(), corners.begin(), corners.end());
     ends_.push_back(corners_.size());
+    if (opaque == 1) return;
+    const glm::dvec3 middle = (*this)[size() - 1].middle();
+    for (std::size_t i = corners_.size() - corners.size(); i < corners_.size(); ++i) {
+        corners_[i] = middle + std::sqrt(opaque) * (corners_[i] - middle);
+    }
 }
 
 void DrawnFaces::add_leaves(std::uint32_t plant, const PlantGeometry& geometry, const Palette* palette) {
+    WornPictures pictures(geometry.shapes.get());
     for (const Polygon& polygon : geometry.polygons) {
         const Look& look = polygon.look;
-        add({plant, polygon.module, Kind::polygon, polygon.colour, look.back_colour, look.texture},
-            {&geometry.vertices[polygon.first], polygon.count});
+        const std::span corners(&geometry.vertices[polygon.first], polygon.count);
+        const Opacity* const opacity = pictures.of(look.texture);
+        add({plant, polygon.module, Kind::polygon, polygon.colour, look.back_colour, look.texture}, corners,
+            opacity ? opacity->over(texture_coordinates(corners, unit_normal(corners))) : 1);
     }
     for (const MeshPiece& piece : geometry.mesh.pieces) {
-        if (!is_closed(piece)) add_piece(owner_of(plant, piece), geometry.mesh, piece);
+        if (!is_closed(piece)) add_piece(owner_of(plant, piece), geometry.mesh, piece, pictures);
     }
-    add_organs(plant, geometry, palette);
+    add_organs(plant, geometry, palette, pictures);
 }
 
-void DrawnFaces::add_piece(const FaceOwner& owner, const DrawnMesh& mesh, const MeshPiece& piece) {
-    const auto corner = [&](std::uint32_t i) { return mesh.vertices[mesh.triangles[i]].position; };
+void DrawnFaces::add_piece(const FaceOwner& owner, const DrawnMesh& mesh, const MeshPiece& piece,
+                           WornPictures& pictures) {
+    const Opacity* const opacity = owner.of == FaceOf::leaf ? pictures.of(owner.texture) : nullptr;
+    const auto corner = [&](std::uint32_t i) -> const SurfaceVertex& { return mesh.vertices[mesh.triangles[i]]; };
     for (std::uint32_t i = piece.first; i + 2 < piece.first + piece.count; i += 3) {
-        add(owner, std::array{corner(i), corner(i + 1), corner(i + 2)});
+        const SurfaceVertex &a = corner(i), &b = corner(i + 1), &c = corner(i + 2);
+        add(owner, std::array{a.position, b.position, c.position},
+            opacity ? opacity->over(std::array{a.uv, b.uv, c.uv}) : 1);
     }
 }
 
-void DrawnFaces::add_organs(std::uint32_t plant, const PlantGeometry& geometry, const Palette* palette) {
+void DrawnFaces::add_organs(std::uint32_t plant, const PlantGeometry& geometry, const Palette* palette,
+                            WornPictures& pictures) {
     SurfaceMeshes surfaces(geometry.shapes);
     std::vector<glm::dvec3> corners;
     for (const Organ& organ : geometry.organs) {
@@ -95,6 +155,7 @@ void DrawnFaces::add_organs(std::uint32_t plant, const PlantGeometry& geometry, 
             add(owner_of(plant, organ), rhombus_of(organ));
             continue;
         }
+        const std::vector<double>& opaque = pictures.of(organ, *surface, surfaces.textured_as_whole(organ));
         for (std::size_t face = 0, next = 0; face < surface->mesh.faces.size(); ++face) {
             FaceOwner owner = owner_of(plant, organ);
             if (palette) {
@@ -107,7 +168,7 @@ void DrawnFaces::add_organs(std::uint32_t plant, const PlantGeometry& geometry, 
             for (std::uint32_t i = 0; i < surface->mesh.faces[face]; ++i) {
                 corners.push_back(placed_point(organ, surface->mesh.vertices[surface->mesh.indices[next++]].position));
             }
-            add(owner, corners);
+            add(owner, corners, opaque.empty() ? 1 : opaque[face]);
         }
     }
 }
@@ -142,8 +203,9 @@ void DrawnFaces::add_stem(const FaceOwner& owner, const Internode& internode) {
 }
 
 void DrawnFaces::add_bodies(std::uint32_t plant, const PlantGeometry& geometry) {
+    WornPictures pictures(nullptr);
     for (const MeshPiece& piece : geometry.mesh.pieces) {
-        if (is_closed(piece)) add_piece(owner_of(plant, piece), geometry.mesh, piece);
+        if (is_closed(piece)) add_piece(owner_of(plant, piece), geometry.mesh, piece, pictures);
     }
     OrganMeshes meshes;
     for (const Organ& organ : geometry.organs) {

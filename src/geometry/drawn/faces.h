@@ -42,8 +42,11 @@ struct DrawnFace {
 };
 
 class OrganMeshes;
+class WornPictures;
 
-/// Faces one after the other. The one place where light takes what a turtle has drawn.
+/// Faces one after the other. The one place where light takes what a turtle has drawn. A face that wears a picture with
+/// holes is drawn in about its middle until its area is the share of it that the picture leaves opaque, so that light
+/// meets as much of a card as there are leaves on it; one that shows nothing is left out.
 class DrawnFaces {
 public:
     void clear();
@@ -65,9 +68,9 @@ public:
     }
 
 private:
-    void add(const FaceOwner& owner, std::span<const glm::dvec3> corners);
-    void add_piece(const FaceOwner& owner, const DrawnMesh& mesh, const MeshPiece& piece);
-    void add_organs(std::uint32_t plant, const PlantGeometry& geometry, const Palette* palette);
+    void add(const FaceOwner& owner, std::span<const glm::dvec3> corners, double opaque = 1);
+    void add_piece(const FaceOwner& owner, const DrawnMesh& mesh, const MeshPiece& piece, WornPictures& pictures);
+    void add_organs(std::uint32_t plant, const PlantGeometry& geometry, const Palette* palette, WornPictures& pictures);
     void add_stem(const FaceOwner& owner, const Internode& internode);
     void add_sphere(std::uint32_t plant, const Organ& organ, OrganMeshes& meshes);
 

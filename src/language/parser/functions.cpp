@@ -39,6 +39,7 @@ constexpr auto entries = std::to_array<FunctionEntry>({
     {"Display", Function::display, 1, 1, true},
     {"play", Function::display, 1, 1, true},
     {"printf", Function::print, 1, any_number, true},
+    {"error", Function::print, 1, any_number, true, 1},
     {"fopen", Function::file_open, 2, 2, true},
     {"fclose", Function::file_close, 1, 1},
     {"fprintf", Function::file_print, 2, any_number, true},

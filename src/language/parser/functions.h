@@ -16,7 +16,7 @@ struct FunctionEntry {
     int least;  ///< number of arguments
     int most;
     bool takes_text = false;
-    std::uint32_t index = 0;  ///< which edge of the view
+    std::uint32_t index = 0;  ///< which edge of the view; of what is printed: 1 ends the run with it
 };
 
 inline constexpr int any_number = std::numeric_limits<int>::max();

@@ -20,6 +20,14 @@ constexpr std::uint64_t turns_between_looks = 1024;
     throw EvaluationError(place, fmt::format("the loop does not end: it was stopped after {} turns", most_turns));
 }
 
+std::string filled(const PrintCall& call, const double* registers) {
+    std::vector<PrintFormat::Value> values;
+    for (const PrintCall::Argument& argument : call.arguments) {
+        values.push_back({argument.text ? 0 : registers[argument.reg], argument.text});
+    }
+    return call.format.fill(values);
+}
+
 }  // namespace
 
 Machine::Machine(const std::vector<double>& constants, std::size_t registers, const std::vector<CompiledArray>& arrays,
@@ -127,6 +135,7 @@ void Machine::run(const Program& program) {
                 if (turns > most_turns) refuse_loop(place());
                 break;
             case Opcode::print:
+                if (i.b == 1) throw EvaluationError(place(), filled(program.prints[i.a], r));  // error(...)
                 r[i.target] = print(program.prints[i.a], place());
                 break;
             case Opcode::file_open: {
@@ -202,16 +211,12 @@ double* Machine::element(const Instruction& instruction, const Place& place) {
 }
 
 double Machine::print(const PrintCall& call, const Place& place) {
-    std::vector<PrintFormat::Value> values;
-    for (const PrintCall::Argument& argument : call.arguments) {
-        values.push_back({argument.text ? 0 : registers_[argument.reg], argument.text});
-    }
-    if (values.size() < call.format.conversions()) {
+    if (call.arguments.size() < call.format.conversions()) {
         services_->warn(place,
                         fmt::format("the format asks for {} values and is given {}; those that are missing are 0",
-                                    call.format.conversions(), values.size()));
+                                    call.format.conversions(), call.arguments.size()));
     }
-    const std::string text = call.format.fill(values);
+    const std::string text = filled(call, registers_.data());
     if (!call.file) {
         services_->print(text);
     } else if (const double file = registers_[*call.file]; !services_->files->print(file, text, place)) {

@@ -43,7 +43,8 @@ ProgramCompiler::Operand ProgramCompiler::function(const Expression& expression)
 
 ProgramCompiler::Operand ProgramCompiler::print(const Expression& expression) {
     const std::size_t at = expression.function == Function::file_print ? 1 : 0;
-    const char* const name = name_of(expression.function);
+    const bool is_error = expression.function == Function::print && expression.index == 1;
+    const char* const name = is_error ? "error" : name_of(expression.function);
     const Expression& format = expression.operands[at];
     if (format.kind != Expression::Kind::text) {
         throw UserError(format.place, fmt::format("{} needs a format in quotes", name));
@@ -65,7 +66,7 @@ ProgramCompiler::Operand ProgramCompiler::print(const Expression& expression) {
     program_.effects.ordered = true;
     program_.prints.push_back(std::move(call));
     const auto index = static_cast<std::uint32_t>(program_.prints.size() - 1);
-    return emit({Opcode::print, expression.function, 0, temporary(), index, 0}, expression.place);
+    return emit({Opcode::print, expression.function, 0, temporary(), index, is_error}, expression.place);
 }
 
 ProgramCompiler::Operand ProgramCompiler::open_file(const Expression& expression) {

@@ -24,9 +24,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// True if a part worth mentioning lies below the height 0.
-bool grows_beneath(const Box& box) {
-    return box.lower.y < -0.02 * (box.upper.y - box.lower.y);
+/// Roots are seen through the ground. Paths of light do not show what is beneath: there, more must stand above.
+bool wants_ground(const StageSurvey& survey, const PictureStyle& style) {
+    if (survey.box.empty()) return false;
+    if (!survey.grows_beneath()) return true;
+    if (!style.fields.empty() || !survey.is_rooted()) return false;
+    return !style.light || survey.box.upper.y > -survey.box.lower.y;
 }
 
 /// Draws the frames of a job one after the other.
@@ -39,7 +42,7 @@ public:
         require_something(survey);
         stage.settle(survey);
         PictureStyle style = job.style;
-        style.ground = job.ground.value_or(!survey.box.empty() && !grows_beneath(survey.box));
+        style.ground = job.ground.value_or(wants_ground(survey, style));
         if (job.chooses_background && !(style.light && style.light->shows_sky))
             style.background = chosen_background(job.run, survey, style.background);
         stage.restyle(style);

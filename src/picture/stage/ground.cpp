@@ -31,7 +31,7 @@ float brightness(float sky, float sun) {
 }
 
 vtkSmartPointer<vtkActor> ground_actor(const glm::dvec3& middle, double radius, const Daylight* daylight,
-                                       const PictureBackground& background) {
+                                       const PictureBackground& background, float opacity) {
     vtkNew<vtkImageData> image;
     image->SetDimensions(texels, texels, 1);
     image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
@@ -45,7 +45,8 @@ vtkSmartPointer<vtkActor> ground_actor(const glm::dvec3& middle, double radius, 
                 daylight ? brightness(daylight->sky(point, glm::vec3(0, 1, 0), false), daylight->sun(point, 2)) : 1;
             unsigned char* pixel = pixels + 4 * (static_cast<std::ptrdiff_t>(row) * texels + column);
             for (const float part : soil) *pixel++ = static_cast<unsigned char>(std::lround(light * part));
-            *pixel = static_cast<unsigned char>(std::lround(255 * presence(static_cast<float>(std::hypot(x, z)))));
+            *pixel =
+                static_cast<unsigned char>(std::lround(255 * opacity * presence(static_cast<float>(std::hypot(x, z)))));
         }
     });
     const glm::dvec3 corner(middle.x - radius, 0, middle.z - radius);

@@ -10,9 +10,12 @@
 
 namespace espalier::picture {
 
-/// At height 0, round a middle. `daylight`: whose shadows lie on it; null: none.
+/// Opacity of a ground through which roots are seen, where there is more of them than the foot of a trunk.
+inline constexpr float clear_ground = 0.5F;
+
+/// At height 0, round a middle. `daylight`: whose shadows lie on it; null: none. `opacity`: in the middle.
 vtkSmartPointer<vtkActor> ground_actor(const glm::dvec3& middle, double radius, const Daylight* daylight,
-                                       const PictureBackground& background);
+                                       const PictureBackground& background, float opacity = 1);
 
 /// The colour of the ground, from 0 to 255: it suits the background.
 std::array<float, 3> soil_of(const PictureBackground& background);

@@ -349,7 +349,9 @@ private:
     void add_ground(const Daylight* daylight) {
         const auto disc = ground_disc();
         if (!disc) return;
-        others_.push_back(ground_actor(disc->middle, disc->radius, daylight, style_.background));
+        const StageSurvey& seen = survey_ && !survey_->box.empty() ? *survey_ : here_;
+        const float opacity = seen.has_roots_to_see() ? clear_ground : 1;
+        others_.push_back(ground_actor(disc->middle, disc->radius, daylight, style_.background, opacity));
         renderer_->AddViewProp(others_.back());
     }
 

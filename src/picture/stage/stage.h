@@ -35,7 +35,20 @@ struct StageSurvey {
     std::map<std::string, std::array<double, 2>> field_ranges;
     bool has_labels = false, has_faces = false;
     std::size_t drawn = 0, pale = 0;  ///< lines and faces whose colour is known, and those hardly seen on white
+    /// A plant, and where it passes through the height 0.
+    struct Stance {
+        Box box, feet;
+        glm::dvec3 origin{0};  ///< its first point
+    };
+    std::map<std::uint32_t, Stance> stances;
 
+    /// True if a part worth mentioning lies below the height 0.
+    bool grows_beneath() const;
+    /// True if more lies there than the foot of a trunk: it is seen through the ground.
+    bool has_roots_to_see() const;
+    /// True if what lies there is below the feet of plants, as roots are, not something that the plane would cut
+    /// through.
+    bool is_rooted() const;
     /// A dark background shows more of the plants' own colours.
     bool wants_dark() const { return 2 * pale > drawn; }
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace espalier::picture {
 namespace {
@@ -12,6 +13,8 @@ void widen(std::array<double, 2>& range, const std::array<double, 2>& by) {
 
 void add_plants(const FrameGeometry& geometry, const std::optional<std::uint32_t>& plant, StageSurvey& survey) {
     survey.has_faces = survey.has_faces || geometry.polygons.size() > 0;
+    StageSurvey::Stance* stance = nullptr;  // points of a plant follow each other
+    std::uint32_t standing = 0;
     for (std::size_t i = 0; i < geometry.points.size(); ++i) {
         const Kind kind = geometry.of_points.kinds[i];
         if (plant && geometry.of_points.plants[i] != *plant) continue;
@@ -20,7 +23,31 @@ void add_plants(const FrameGeometry& geometry, const std::optional<std::uint32_t
         const glm::dvec3 point(geometry.points[i]);
         if (!std::isfinite(point.x + point.y + point.z)) continue;
         survey.box.add(point);
+        if (!stance || standing != geometry.of_points.plants[i]) {
+            standing = geometry.of_points.plants[i];
+            const auto [found, is_new] = survey.stances.try_emplace(standing);
+            stance = &found->second;
+            if (is_new) stance->origin = point;
+        }
+        stance->box.add(point);
         survey.outline.add(point, std::isfinite(geometry.radii[i]) ? geometry.radii[i] : 0);
+    }
+}
+
+/// Where edges of these cells pass through the height 0, or end there and go down.
+void add_feet(const FrameGeometry& geometry, const FrameCells& cells, const std::optional<std::uint32_t>& plant,
+              StageSurvey& survey) {
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+        const std::uint32_t owner = geometry.of_cells.plants[cells.first + cell];
+        if (plant && owner != *plant) continue;
+        const auto corners = cells[cell];
+        for (std::size_t i = 1; i < corners.size(); ++i) {
+            glm::dvec3 low(geometry.points[static_cast<std::size_t>(corners[i - 1])]),
+                high(geometry.points[static_cast<std::size_t>(corners[i])]);
+            if (low.y > high.y) std::swap(low, high);
+            if (!(low.y < 0 && high.y >= 0)) continue;
+            survey.stances[owner].feet.add(low + -low.y / (high.y - low.y) * (high - low));
+        }
     }
 }
 
@@ -70,6 +97,8 @@ void add_field(const RecordedField& field, StageSurvey& survey) {
 void add_survey(const RecordedRun& run, const PictureStyle& style, const Colouring& colouring,
                 const RecordedFrame& frame, const FrameGeometry& geometry, StageSurvey& survey) {
     add_plants(geometry, style.plant, survey);
+    add_feet(geometry, geometry.lines, style.plant, survey);
+    add_feet(geometry, geometry.polygons, style.plant, survey);
     if (colouring.is_natural()) add_colours(geometry, style.plant, survey);
     if (colouring.is_number()) {
         const auto range = range_of(colouring.values(run, frame, geometry));
@@ -78,6 +107,26 @@ void add_survey(const RecordedRun& run, const PictureStyle& style, const Colouri
     for (const FieldLook& look : style.fields) {
         if (frame.fields.contains(look.name)) add_field(run.field(frame, look.name), survey);
     }
+}
+
+bool StageSurvey::grows_beneath() const {
+    return !box.empty() && box.lower.y < -0.02 * (box.upper.y - box.lower.y);
+}
+
+bool StageSurvey::has_roots_to_see() const {
+    return !box.empty() && box.lower.y < -0.1 * (box.upper.y - box.lower.y);
+}
+
+bool StageSurvey::is_rooted() const {
+    constexpr double narrow = 0.3;  // by the extent of a plant
+    return std::all_of(stances.begin(), stances.end(), [](const auto& entry) {
+        const auto& [all, feet, origin] = entry.second;
+        if (all.empty() || feet.empty()) return true;  // the plane cuts nothing
+        Box around = feet;
+        around.add({origin.x, 0, origin.z});
+        const glm::dvec3 stand = around.upper - around.lower, extent = all.upper - all.lower;
+        return std::max(stand.x, stand.z) <= narrow * std::max({extent.x, extent.y, extent.z});
+    });
 }
 
 PictureBackground chosen_background(const RecordedRun& run, const StageSurvey& survey,

@@ -24,8 +24,8 @@ void thin_in_shade(std::vector<std::uint32_t>& counts, const std::vector<Bearing
     for (const std::size_t node : downwards) {
         const glm::dvec3& at = place(node);
         double& above = kept[{std::llround(at.x / column), std::llround(at.z / column)}];
-        const double area = above * shade.size * shade.size / (column * column);
-        const double wanted = counts[node] * math::exp(-shade.extinction * area), sure = std::floor(wanted);
+        const double index = above * shade.area / (column * column);
+        const double wanted = counts[node] * math::exp(-shade.extinction * index), sure = std::floor(wanted);
         const bool one_more = RandomSamples(key, nodes[node].identity, 0x7368).uniform() < wanted - sure;
         counts[node] = static_cast<std::uint32_t>(sure) + (one_more ? 1 : 0);
         above += counts[node];

@@ -8,6 +8,7 @@ namespace espalier::turtle {
 struct LeafShade {
     double extinction;
     double size;  ///< side of a leaf, m
+    double area;  ///< mean area of a leaf, one side, m2
 };
 
 /// Leaves of each node, from the highest down, fall to exp(-extinction L), where L is the area of the leaves kept above

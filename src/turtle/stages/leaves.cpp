@@ -6,10 +6,12 @@
 #include "espalier/turtle/geometry_stage.h"
 
 #include "base/text.h"
+#include "geometry/drawn/faces.h"
 #include "geometry/surface_id.h"
 #include "geometry/vectors.h"
 #include "turtle/foliage/bearing_nodes.h"
 #include "turtle/foliage/cards.h"
+#include "turtle/foliage/crown_ground.h"
 #include "turtle/foliage/leaf_shade.h"
 #include "turtle/foliage/leaf_shapes.h"
 
@@ -38,12 +40,19 @@ glm::dquat random_turn(RandomSamples& samples) {
     return {c * math::cos(b), s * math::sin(a), s * math::cos(a), c * math::sin(b)};
 }
 
+using Counts = std::vector<std::uint32_t>;
+
 /// Which nodes bear how many.
 class LeafCounts {
 public:
-    explicit LeafCounts(Settings& settings) {
+    explicit LeafCounts(Settings& settings)
+        : index_(settings.number_or("leaf_area_index", 0, Range::between(0, 30))),
+          place_(settings.place("leaf_area_index")) {
         if (settings.has("number") && settings.has("per_node")) {
             throw UserError(settings.place("number"), "'number' counts all leaves of a plant: without 'per_node'");
+        }
+        if (settings.has("number") && index_ > 0) {
+            throw UserError(place_, "'leaf_area_index' says how many leaves there are: without 'number'");
         }
         if (settings.has("number")) {
             number_ = static_cast<std::size_t>(settings.integer("number", Range::between(0, 1e7)));
@@ -52,27 +61,58 @@ public:
         }
     }
 
-    std::vector<std::uint32_t> of(const std::vector<BearingNode>& nodes, RandomKey key) const {
+    /// Leaf area that there is to be on the ground below the crown; 0: as many leaves as nodes should have.
+    double index() const { return index_; }
+
+    Counts of(const std::vector<BearingNode>& nodes, RandomKey key) const {
         if (nodes.empty()) return {};
-        std::vector<double> chances;
-        for (const BearingNode& node : nodes) chances.push_back(RandomSamples(key, node.identity, 0).uniform());
-        return number_ ? in_all(chances) : at_each(chances);
+        const std::vector<double> chances = this->chances(nodes, key);
+        return number_ ? in_all(chances) : at_each(chances, per_node_);
+    }
+
+    /// The fewest leaves of nodes with which `total`, which keeps some of them, is what is wanted.
+    template <class Total>
+    Counts reaching(std::size_t wanted, const std::vector<BearingNode>& nodes, RandomKey key,
+                    const Total& total) const {
+        const std::vector<double> chances = this->chances(nodes, key);
+        double low = 0, high = 1;
+        while (total(at_each(chances, high)) < wanted) {
+            if ((high *= 2) > most_per_node) {
+                throw RunError(
+                    fmt::format("{}: a leaf area index of {:g} needs more than {:g} leaves a node: give the "
+                                "leaves less shade, a larger size or thicker twigs",
+                                to_string(place_), index_, most_per_node));
+            }
+        }
+        for (int i = 0; i < 30 && high - low > 1e-4 * high; ++i) {
+            const double middle = (low + high) / 2;
+            (total(at_each(chances, middle)) < wanted ? low : high) = middle;
+        }
+        return at_each(chances, high);
     }
 
 private:
-    std::vector<std::uint32_t> at_each(const std::vector<double>& chances) const {
-        const double sure = std::floor(per_node_);
-        std::vector<std::uint32_t> counts;
+    static constexpr double most_per_node = 1000;
+
+    static std::vector<double> chances(const std::vector<BearingNode>& nodes, RandomKey key) {
+        std::vector<double> chances;
+        for (const BearingNode& node : nodes) chances.push_back(RandomSamples(key, node.identity, 0).uniform());
+        return chances;
+    }
+
+    static Counts at_each(const std::vector<double>& chances, double per_node) {
+        const double sure = std::floor(per_node);
+        Counts counts;
         for (const double chance : chances) {
-            counts.push_back(static_cast<std::uint32_t>(sure) + (chance < per_node_ - sure ? 1 : 0));
+            counts.push_back(static_cast<std::uint32_t>(sure) + (chance < per_node - sure ? 1 : 0));
         }
         return counts;
     }
 
     /// The same number at all nodes, and one more at those that drew the smallest chances.
-    std::vector<std::uint32_t> in_all(const std::vector<double>& chances) const {
+    Counts in_all(const std::vector<double>& chances) const {
         const std::size_t nodes = chances.size();
-        std::vector<std::uint32_t> counts(nodes, static_cast<std::uint32_t>(*number_ / nodes));
+        Counts counts(nodes, static_cast<std::uint32_t>(*number_ / nodes));
         std::vector<std::size_t> order(nodes);
         std::iota(order.begin(), order.end(), std::size_t{0});
         const auto rest = order.begin() + static_cast<std::ptrdiff_t>(*number_ % nodes);
@@ -83,8 +123,9 @@ private:
         return counts;
     }
 
-    double per_node_ = 1;
+    double per_node_ = 1, index_;
     std::optional<std::size_t> number_;
+    Place place_;
 };
 
 /// How leaves are turned.
@@ -172,19 +213,74 @@ public:
     void apply(StagedPlant& plant) const override {
         const RandomKey key(plant.key.value(), 0, Stream::stage, salt_);
         const std::vector<BearingNode> nodes = bearing_nodes(plant, thickest_);
-        std::vector<std::uint32_t> counts = counts_.of(nodes, key);
-        if (shade_ > 0) thin_in_shade(counts, nodes, plant.geometry, {shade_, size_}, key);
-        const std::uint32_t most = counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
         const Organ pattern = dress(plant.geometry);
-        // One of each node at a time: readers of a run take neighbours of one module for one organ.
-        for (std::uint32_t leaf = 0; leaf < most; ++leaf) {
-            for (std::size_t i = 0; i < nodes.size(); ++i) {
-                if (leaf < counts[i]) add(plant.geometry, nodes[i], leaf, key, pattern);
-            }
+        const double area = mean_area(plant.geometry, pattern);
+        if (counts_.index() > 0 && !nodes.empty()) {
+            add(plant.geometry, nodes, counts_for_index(plant.geometry, nodes, key, pattern, area), key, pattern);
+        } else {
+            add(plant.geometry, nodes, thinned(counts_.of(nodes, key), nodes, plant.geometry, area, key), key, pattern);
         }
     }
 
 private:
+    /// With its picture's holes left out, and that of a sphere as it looks from all directions.
+    double mean_area(const PlantGeometry& geometry, Organ leaf) const {
+        leaf.pose = {};
+        leaf.size = glm::dvec3(1);
+        PlantGeometry alone;
+        alone.shapes = geometry.shapes;
+        alone.organs = {leaf};
+        DrawnFaces faces;
+        faces.add_leaves(0, alone);
+        double area = kind_ == "sphere" ? std::numbers::pi / 4 : 0;
+        for (std::size_t i = 0; i < faces.size(); ++i) area += glm::length(faces[i].area());
+        return area * size_ * size_ * (1 + spread_ * spread_);
+    }
+
+    Counts thinned(Counts counts, const std::vector<BearingNode>& nodes, const PlantGeometry& geometry, double area,
+                   RandomKey key) const {
+        if (shade_ > 0) thin_in_shade(counts, nodes, geometry, {shade_, size_, area}, key);
+        return counts;
+    }
+
+    /// The crown's ground is that below its leaves: below one of each node first, then below those that this gives.
+    Counts counts_for_index(PlantGeometry& geometry, const std::vector<BearingNode>& nodes, RandomKey key,
+                            const Organ& pattern, double area) const {
+        Counts counts(nodes.size(), area > 0 ? 1 : 0);
+        for (int pass = 0; pass < 3 && area > 0; ++pass) {
+            const double ground = ground_of(geometry, nodes, counts, key, pattern);
+            const auto wanted = static_cast<std::size_t>(std::llround(counts_.index() * ground / area));
+            const auto total = [&](const Counts& each) {
+                const Counts kept = thinned(each, nodes, geometry, area, key);
+                return std::accumulate(kept.begin(), kept.end(), std::size_t{0});
+            };
+            counts = thinned(counts_.reaching(wanted, nodes, key, total), nodes, geometry, area, key);
+        }
+        return counts;
+    }
+
+    double ground_of(PlantGeometry& geometry, const std::vector<BearingNode>& nodes, const Counts& counts,
+                     RandomKey key, const Organ& pattern) const {
+        PlantGeometry leaves;
+        leaves.shapes = geometry.shapes;
+        const std::size_t before = geometry.organs.size();
+        add(geometry, nodes, counts, key, pattern);
+        leaves.organs.assign(geometry.organs.begin() + static_cast<std::ptrdiff_t>(before), geometry.organs.end());
+        geometry.organs.resize(before);
+        return ground_below(leaves);
+    }
+
+    // One of each node at a time: readers of a run take neighbours of one module for one organ.
+    void add(PlantGeometry& geometry, const std::vector<BearingNode>& nodes, const Counts& counts, RandomKey key,
+             const Organ& pattern) const {
+        const std::uint32_t most = counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
+        for (std::uint32_t leaf = 0; leaf < most; ++leaf) {
+            for (std::size_t i = 0; i < nodes.size(); ++i) {
+                if (leaf < counts[i]) add_leaf(geometry, nodes[i], leaf, key, pattern);
+            }
+        }
+    }
+
     static std::uint64_t salt_of(const std::string& id) {
         std::uint64_t salt = 0;
         for (const char letter : id) salt = mix(salt, static_cast<unsigned char>(letter));
@@ -227,8 +323,8 @@ private:
                         "the view file of this plant has no such surface: name one that it has, or another kind");
     }
 
-    void add(PlantGeometry& geometry, const BearingNode& node, std::uint32_t leaf, RandomKey key,
-             const Organ& pattern) const {
+    void add_leaf(PlantGeometry& geometry, const BearingNode& node, std::uint32_t leaf, RandomKey key,
+                  const Organ& pattern) const {
         RandomSamples samples(key, node.identity, leaf + 1);
         const BearingPlace place = place_on(node, geometry, samples.uniform());
         const double size = size_ * std::max(1 + spread_ * samples.normal(), 0.0);
@@ -257,6 +353,8 @@ const Registered<GeometryStageType> entry{
      R"(per_node     1, 0 to 1000; leaves of each node: the integer part is sure, the rest is a probability. A larger number keeps
              the leaves that are there
 number       none, 0 to 1e7; instead of per_node: so many in all
+leaf_area_index  0, 0 to 30; if above 0, instead of per_node: area of all leaves by that of the ground below the crown (the
+             convex hull of its leaves, seen from above). Of leaves that wear a picture, what it leaves opaque counts
 kind         "cross", or "card", "surface", "sphere"; cross: two squares at right angles, 8 vertices and 4 triangles;
              card: one square, 4 and 2; surface: one of the view file; sphere: a fruit
 surface      none; of kind "surface": the character that names it behind ~

@@ -3,11 +3,14 @@
 
 #include "catch.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 using namespace espalier;
 using namespace espalier::environment;
@@ -68,6 +71,32 @@ TEST_CASE("a rough cloud is the smooth one without parts of its rim", "[markers]
         CHECK(inner(points) == inner(smooth));
         CHECK(std::count_if(points.begin(), points.end(), [&](auto& p) { return glm::length(p) > 1 - 0.4 * rough; }) >
               0);
+    }
+}
+
+TEST_CASE("however rough its rim, a cloud is as wide, high and deep as it should be", "[markers]") {
+    for (const double rough : {0.2, 0.35, 0.7}) {
+        const double near = rough < 0.5 ? 0.07 : 0.14;  // a spike that is left is thin: few points lie at its end
+        for (const auto& [below, above] : {std::pair(0.0, 0.0), {0.1, 0.0}, {0.5, 0.2}, {0.7, 0.0}}) {
+            const double lower = -1 + 2 * below, upper = 1 - 2 * above, middle = std::clamp(0.0, lower, upper);
+            const double widest = std::sqrt(1 - middle * middle);
+            for (int seed = 1; seed <= 8; ++seed) {
+                INFO(rough << ", cut " << below << " below and " << above << " above, seed " << seed);
+                Box box;
+                for (const glm::dvec3& point : points_of(fmt::format(
+                         "cloud = {{ radii = [1, 1, 1], base = [0, {}, 0], number = 40000, rough = {}, below = {}, "
+                         "above = {}, seed = {} }}",
+                         lower, rough, below, above, seed))) {
+                    box.add(point);
+                }
+                for (const int axis : {0, 2}) {
+                    CHECK(box.lower[axis] == Approx(-widest).margin(near));
+                    CHECK(box.upper[axis] == Approx(widest).margin(near));
+                }
+                CHECK(box.lower.y == Approx(lower).margin(near));
+                CHECK(box.upper.y == Approx(upper).margin(near));
+            }
+        }
     }
 }
 

@@ -1,4 +1,6 @@
+#include "base/png_file.h"
 #include "catch.h"
+#include "geometry/drawn/faces.h"
 #include "temporary_folder.h"
 #include "turtle/foliage/bearing_nodes.h"
 #include "turtle/foliage/cards.h"
@@ -210,9 +212,72 @@ TEST_CASE("fewer leaves stand in the shade of others, none are fewer at the top"
         CHECK(below < before);
         before = below;
     }
-    // dL/dn = exp(-k L) by 16 leaf areas of the column: after n leaves, L is ln(1 + k n / 16) / k.
+    // A crossed leaf has twice the area of its square, and 1.04 times that for its spread: c = 16 / 2.08 of them cover
+    // the column. dL/dn = exp(-k L) / c: after n leaves, L is ln(1 + k n / c) / k.
     const auto [below, above] = halves(0.5);
-    CHECK(static_cast<double>(below + above) == Approx(16 * std::log(1 + 0.5 * 800 / 16) / 0.5).epsilon(0.1));
+    const double c = 16 / 2.08;
+    CHECK(static_cast<double>(below + above) == Approx(c * std::log(1 + 0.5 * 800 / c) / 0.5).epsilon(0.1));
+}
+
+namespace {
+
+/// Area of all leaves by that of the ground below the convex hull of their corners, each hull edge found by brute
+/// force.
+double leaf_area_index(const Tree& tree) {
+    DrawnFaces faces;
+    faces.add_leaves(0, tree.geometry);
+    double area = 0, low = 1e9, high = -1e9;
+    std::vector<glm::dvec2> points;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        area += glm::length(faces[i].area());
+        for (const glm::dvec3& corner : faces[i].corners) {
+            points.emplace_back(corner.x, corner.z);
+            low = std::min(low, corner.x), high = std::max(high, corner.x);
+        }
+    }
+    // By its support function h: the area is the integral of h^2 - h'^2 over half of all directions, on both sides.
+    constexpr int directions = 3600;
+    const auto support = [&](int k) {
+        const double angle = 2 * std::numbers::pi * k / directions;
+        double most = -1e9;
+        for (const glm::dvec2& p : points) most = std::max(most, p.x * std::cos(angle) + p.y * std::sin(angle));
+        return most;
+    };
+    double ground = 0, before = support(0);
+    for (int k = 1; k <= directions; ++k) {
+        const double now = support(k), step = 2 * std::numbers::pi / directions, slope = (now - before) / step;
+        ground += 0.5 * step * ((now * now + before * before) / 2 - slope * slope);
+        before = now;
+    }
+    return area / ground;
+}
+
+}  // namespace
+
+TEST_CASE("a leaf area index of leaves is the one that was asked for, by what their picture leaves opaque",
+          "[turtle]") {
+    const TemporaryFolder folder;
+    OpacityPicture picture{4, 4, {}};
+    for (int i = 0; i < 16; ++i)
+        picture.pixels.push_back({90, 90, 90, static_cast<std::uint8_t>(i % 4 == 0 ? 255 : 0)});
+    const std::string file = folder.write("quarter.png", png_bytes(picture)).string();
+    Tree crown;
+    for (int i = 0; i < 400; ++i) {
+        crown.open();
+        crown.grow({std::cos(2.4 * i) * std::sqrt(i) / 8, 0.5 + 0.001 * i, std::sin(2.4 * i) * std::sqrt(i) / 8}, 0.01);
+        crown.close();
+    }
+    for (const double wanted : {0.7, 3.0, 8.0}) {
+        CHECK(leaf_area_index(leafy(crown, {{"leaf_area_index", wanted}, {"size", 0.2}, {"thickest", 0.05}})) ==
+              Approx(wanted).epsilon(0.05));
+        CHECK(leaf_area_index(leafy(crown, {{"leaf_area_index", wanted}, {"size", 0.2}, {"texture", file}})) ==
+              Approx(wanted).epsilon(0.05));
+        CHECK(leaf_area_index(leafy(crown, {{"leaf_area_index", wanted}, {"kind", "card"}, {"shade", 0.3}})) ==
+              Approx(wanted).epsilon(0.05));
+    }
+    CHECK_THROWS_WITH(leafy(crown, {{"leaf_area_index", 3}, {"number", 5}}), Contains("without 'number'"));
+    CHECK_THROWS_WITH(leafy(crown, {{"leaf_area_index", 30}, {"size", 0.01}}),
+                      Contains("needs more than 1000 leaves a node") && Contains("less shade"));
 }
 
 TEST_CASE("a fruit touches its internode", "[turtle][stages]") {
