@@ -15,7 +15,7 @@ const Registered<NotationType> entry{
     <param name="Shape" value="7"/> <param name="1Length" value="0.3"/>
     </species></arbaro>
 
-They are those of `.species` files, with the same units, ranges and defaults: `espalier list notations species`. LeafShape may be a
+The parameters are those of `.species` files, with the same units, ranges and defaults: `espalier list notations species`. LeafShape may be a
 word: disc and disc1 to disc9 are ovals.
 
 Smooth      not read: it shades the facets of Arbaro's meshes
