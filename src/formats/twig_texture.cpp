@@ -15,22 +15,22 @@
 namespace espalier::formats {
 namespace {
 
-constexpr std::uint64_t salt = 0x74776967;
-constexpr double slenderness = 0.42;                        ///< width by length of a leaf
+constexpr std::uint64_t twig_salt = 0x74776967;
+constexpr double leaf_slenderness = 0.42;                   ///< width by length of a leaf
 constexpr double twig_length = 0.68, twig_width = 0.014;    ///< by the side of the picture
 constexpr std::array<double, 3> twig_tint{0.8, 0.56, 0.5};  ///< bark by the colour of leaves
-constexpr double margin = 0.01;
+constexpr double twig_margin = 0.01;
 
 /// Half the width of a blade at a share of its length, by its greatest half width: round at the base, pointed ahead.
-double outline(double along) {
+double blade_outline(double along) {
     return along <= 0 || along >= 1 ? 0 : std::sin(std::numbers::pi * std::pow(along, 0.72)) * (1 - 0.2 * along) / 0.88;
 }
 
 double area_by_square_of_length() {
     constexpr int parts = 1000;
     double sum = 0;
-    for (int i = 0; i < parts; ++i) sum += outline((i + 0.5) / parts) / parts;
-    return slenderness * sum;
+    for (int i = 0; i < parts; ++i) sum += blade_outline((i + 0.5) / parts) / parts;
+    return leaf_slenderness * sum;
 }
 
 /// A leaf or a piece of the twig: it stands at `foot` along a unit vector. Sides of the picture, v upwards.
@@ -42,7 +42,7 @@ struct Blade {
 class TwigPainter {
 public:
     explicit TwigPainter(const LeafTexture& texture)
-        : texture_(texture), samples_(RandomKey(texture.seed, 0, Stream::placement, salt), 0, 0) {
+        : texture_(texture), samples_(RandomKey(texture.seed, 0, Stream::placement, twig_salt), 0, 0) {
         const auto [red, green, blue] = texture.rgb;
         result_.picture = {texture.size, texture.size, {}};
         result_.picture.pixels.assign(texture.size * texture.size, {red, green, blue, 0});
@@ -59,7 +59,7 @@ public:
         paint_twig();
         for (std::size_t i = 0; i + 1 < texture_.blobs; ++i) paint_leaf(blade(i));
         const glm::dvec2 ahead = glm::normalize(glm::dvec2(between(-0.15, 0.15), 1));
-        paint_leaf({on_twig(1), ahead, std::min(length_, 1 - margin - twig_length), brightness()});
+        paint_leaf({on_twig(1), ahead, std::min(length_, 1 - twig_margin - twig_length), brightness()});
         return std::move(result_);
     }
 
@@ -79,8 +79,8 @@ private:
         const double angle = (66 - 28 * share + between(-8, 8)) * std::numbers::pi / 180;
         const glm::dvec2 foot = on_twig(share), along(side * std::sin(angle), std::cos(angle));
         const double length = length_ * (1.1 - 0.25 * share) * between(0.85, 1.1);
-        const double room = (0.5 - margin - std::abs(foot.x - 0.5)) / std::abs(along.x);
-        return {foot, along, std::min({length, room, (1 - margin - foot.y) / along.y}), brightness()};
+        const double room = (0.5 - twig_margin - std::abs(foot.x - 0.5)) / std::abs(along.x);
+        return {foot, along, std::min({length, room, (1 - twig_margin - foot.y) / along.y}), brightness()};
     }
 
     void paint_twig() {
@@ -116,13 +116,13 @@ private:
 
     void paint_leaf(const Blade& leaf) {
         const glm::dvec2 across(-leaf.along.y, leaf.along.x);
-        const double half = slenderness / 2 * leaf.length;
+        const double half = leaf_slenderness / 2 * leaf.length;
         each_pixel(leaf.foot, leaf.foot + leaf.length * leaf.along, half,
                    [&](std::size_t x, std::size_t y, const glm::dvec2& place) {
                        const double t = glm::dot(place - leaf.foot, leaf.along) / leaf.length;
                        const double s = glm::dot(place - leaf.foot, across);
                        if (t < 0 || t > 1) return;
-                       const double inside = half * outline(t) - std::abs(s);
+                       const double inside = half * blade_outline(t) - std::abs(s);
                        put(x, y, {1, 1, 1}, leaf.brightness * shade(t, s / half, leaf.length), inside);
                    });
     }
@@ -130,7 +130,7 @@ private:
     /// A pale midrib, side veins that go ahead, one half in the other's shadow, darker towards the rim.
     double shade(double t, double s, double length) const {
         const double pixel = 1 / (length * static_cast<double>(texture_.size));
-        if (std::abs(s) * slenderness / 2 < std::max(0.012 * (1 - 0.6 * t), 0.6 * pixel)) return 1.16;
+        if (std::abs(s) * leaf_slenderness / 2 < std::max(0.012 * (1 - 0.6 * t), 0.6 * pixel)) return 1.16;
         const double vein = std::abs(std::remainder(8 * (t - 0.32 * std::abs(s)), 1));
         return (s > 0 ? 0.94 : 1.04) * (1 - 0.1 * std::abs(s)) * (vein < 0.09 ? 0.9 : 1);
     }

@@ -236,7 +236,7 @@ double leaf_area_index(const Tree& tree) {
         }
     }
     // By its support function h: the area is the integral of h^2 - h'^2 over half of all directions, on both sides.
-    constexpr int directions = 3600;
+    constexpr int directions = 720;
     const auto support = [&](int k) {
         const double angle = 2 * std::numbers::pi * k / directions;
         double most = -1e9;
