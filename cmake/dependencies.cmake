@@ -7,6 +7,7 @@ find_path(OPENVDB_CMAKE_DIR FindOpenVDB.cmake REQUIRED
 list(APPEND CMAKE_MODULE_PATH ${OPENVDB_CMAKE_DIR})
 find_package(OpenVDB REQUIRED)
 find_package(PNG REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(EXPAT REQUIRED)
 find_package(glm REQUIRED)
 find_package(Eigen3 REQUIRED)

@@ -4,7 +4,7 @@
 # Without a window:  pvpython espalier.py RUN PICTURE.png [COLOUR]
 #                    python3 espalier.py RUN PICTURE.png [COLOUR]      (Debian: package python3-vtk9; no screen: xvfb-run -a)
 #
-# COLOUR is an array: order (default), birth, plant, symbol, identity, or a parameter that the scene records.
+# COLOUR is an array: order (default), birth, plant, symbol, organ, identity, or a parameter that the scene records.
 import os
 import sys
 

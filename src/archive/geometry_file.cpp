@@ -10,8 +10,8 @@
 namespace espalier::archive {
 namespace {
 
-constexpr std::string_view known_arrays[] = {"radius", "pixels", "Normals", "TCoords", "identity", "parent", "plant",
-                                             "symbol", "birth",  "order",   "colour",  "kind",     "rgb"};
+constexpr std::string_view known_arrays[] = {"radius", "pixels", "Normals", "TCoords", "identity", "organ", "parent",
+                                             "plant",  "symbol", "birth",   "order",   "colour",   "kind",  "rgb"};
 
 template <class Vector>
 Column<Vector> vectors(const VtkXmlFile& file, const XmlElement& element, std::size_t count) {

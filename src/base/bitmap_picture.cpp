@@ -18,7 +18,7 @@ Picture read_bitmap(const PictureBytes& bytes) {
     }
     const auto signed_height = static_cast<std::int32_t>(bytes.little4(height));
     const bool top_first = signed_height < 0;
-    Picture image{bytes.little4(width), static_cast<std::size_t>(std::abs(std::int64_t{signed_height})), {}};
+    Picture image{bytes.little4(width), static_cast<std::size_t>(std::abs(std::int64_t{signed_height})), {}, {}};
     bytes.require_size(image.width, image.height, 1);
     image.pixels.resize(image.width * image.height);
     const std::size_t palette = file_header + header, first = bytes.little4(begin_of_pixels);

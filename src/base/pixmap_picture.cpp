@@ -42,7 +42,7 @@ Picture read_pixmap(const PictureBytes& bytes) {
     const std::size_t channels = bytes.begins_with("P6") ? 3 : 1;
     if (channels == 1 && !bytes.begins_with("P5")) bytes.fail("this is no pixmap of bytes (P5 or P6)");
     Header header(bytes);
-    Picture image{header.number(), header.number(), {}};
+    Picture image{header.number(), header.number(), {}, {}};
     if (header.number() != 255) bytes.fail("only pixmaps whose greatest value is 255 can be read");
     bytes.require_size(image.width, image.height, 1);
     image.pixels.resize(image.width * image.height);

@@ -73,6 +73,12 @@ TextCursor TextCursor::line() {
     return line;
 }
 
+TextCursor TextCursor::continued_line() {
+    TextCursor line = this->line();
+    while (line.end_ > line.at_ && text()[line.end_ - 1] == '\\' && !at_end()) line.end_ = this->line().end_;
+    return line;
+}
+
 Place TextCursor::place() const {
     return source_->place(at_);
 }

@@ -43,6 +43,8 @@ public:
     std::string_view word(std::string_view ends = white_space);
     /// The rest of this line, without its end; goes on to the next line.
     TextCursor line();
+    /// The same with the lines that follow it where it ends in a backslash.
+    TextCursor continued_line();
 
     Place place() const;
     Diagnostic diagnostic(const std::string& message,

@@ -63,6 +63,7 @@ void export_run(const ExportJob& job, std::span<const std::string> formats) {
     std::vector<std::string> known;
     for (const auto& type : registered<ExporterType>()) known.push_back(type.first);
     std::vector<std::unique_ptr<Exporter>> exporters;
+    ExportJob all = job;
     for (const std::string& format : formats) {
         const auto type = registered<ExporterType>().find(format);
         if (type == registered<ExporterType>().end()) {
@@ -70,10 +71,11 @@ void export_run(const ExportJob& job, std::span<const std::string> formats) {
                                         did_you_mean(format, known)));
         }
         exporters.push_back(type->second->make());
+        all.beside_meshes |= format == "obj" || format == "gltf" || format == "usd";
     }
-    for (const auto& exporter : exporters) exporter->check(job);
+    for (const auto& exporter : exporters) exporter->check(all);
     if (!job.folder.empty()) make_folder(job.folder);
-    for (const auto& exporter : exporters) exporter->write(job);
+    for (const auto& exporter : exporters) exporter->write(all);
 }
 
 }  // namespace espalier::formats

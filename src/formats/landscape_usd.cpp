@@ -10,6 +10,8 @@
 
 #include <array>
 #include <iterator>
+#include <map>
+#include <utility>
 
 namespace espalier::formats {
 namespace {
@@ -54,12 +56,9 @@ private:
         for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
             const MeshMaterial& look = mesh.materials[mesh.material_of[i]];
             rgb.push_back(look.rgb);
-            const std::string& material = materials_.name(look);
-            if (!material.empty()) subsets[material].push_back(i);
+            subsets[materials_.name(look)].push_back(i);
         }
-        append_mesh(text, name,
-                    {mesh.triangles, mesh.points, mesh.normals, mesh.uvs, rgb, UsdMaterials::of_colours, subsets},
-                    indent);
+        append_mesh(text, name, {mesh.triangles, mesh.points, mesh.normals, mesh.uvs, rgb, std::move(subsets)}, indent);
     }
 
     void append_plants(std::string& text) {

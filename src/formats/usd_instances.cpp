@@ -20,10 +20,10 @@ Instancers::Instancers(const ExportJob& job, UsdMaterials& materials) : job_(job
         const auto [known, is_new] = numbers[node.part.plant].emplace(std::move(rounded), shapes.size());
         shape_of_.push_back(known->second);
         if (!is_new || node.organ.rgb.empty()) continue;
-        const bool of_one_colour = std::all_of(node.organ.rgb.begin(), node.organ.rgb.end(),
-                                               [&](const Rgb& rgb) { return rgb == node.organ.rgb[0]; });
-        shapes.push_back(
-            {&node.organ, of_one_colour ? materials.name({node.organ.rgb[0], node.organ.texture}) : std::string()});
+        Shape& shape = shapes.emplace_back(Shape{&node.organ, {}});
+        for (std::size_t i = 0; i < node.organ.rgb.size(); ++i) {
+            shape.faces[materials.name({node.organ.rgb[i], node.organ.texture})].push_back(i);
+        }
         vertices_ += node.organ.points.size();
         triangles_ += node.organ.triangles.size();
     }
@@ -48,11 +48,8 @@ void Instancers::append_shapes(std::string& text, std::uint32_t plant) const {
     const std::vector<Shape>& shapes = shapes_.at(plant);
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         const NodeShape& shape = *shapes[i].shape;
-        const std::string& material = shapes[i].material;
         append_mesh(text, fmt::format("shape_{}", i),
-                    {shape.triangles, shape.points, shape.normals, shape.uvs, shape.rgb,
-                     material.empty() ? UsdMaterials::of_colours : material},
-                    16);
+                    {shape.triangles, shape.points, shape.normals, shape.uvs, shape.rgb, shapes[i].faces}, 16);
     }
     text += "            }\n";
 }

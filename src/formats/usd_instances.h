@@ -23,7 +23,7 @@ public:
 private:
     struct Shape {
         const NodeShape* shape;
-        std::string material;
+        std::map<std::string, std::vector<std::size_t>> faces;  ///< triangles that wear each material
     };
     struct ByKey {
         bool operator()(const NodeShape& a, const NodeShape& b) const { return a.key() < b.key(); }

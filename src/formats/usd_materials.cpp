@@ -1,6 +1,7 @@
 #include "formats/usd_materials.h"
 
 #include "formats/colour.h"
+#include "formats/textures.h"
 
 #include <fmt/format.h>
 
@@ -12,8 +13,10 @@ const std::string& UsdMaterials::name(const MeshMaterial& look) {
     const auto [at, is_new] = names_.emplace(look, "");
     if (!is_new) return at->second;
     const std::string& copy = copies_.copy(look.texture).name;
-    if (copy.empty() && run_.material(look.rgb).is_plain()) return at->second;
-    at->second = fmt::format("{}_{}", copy.empty() ? "material" : "texture", looks_.size());
+    const bool is_plain = copy.empty() && run_.material(look.rgb).is_plain();
+    if (is_plain && !look.texture.empty()) return at->second = name({look.rgb, ""});
+    at->second =
+        is_plain ? material_name(look) : fmt::format("{}_{}", copy.empty() ? "material" : "texture", looks_.size());
     looks_.push_back({&at->first, copy, copies_.copy(look.texture, TextureMap::normals).name});
     return at->second;
 }

@@ -1,5 +1,5 @@
-// Materials of a USD file: one for each texture and colour that goes with it, one for each colour that emits light or
-// is transparent, and one for all else.
+// Materials of a USD file: one for each colour, and for each texture and colour that goes with it; and one for curves,
+// whose colour may change from point to point. Some programs take one displayColor for a whole mesh.
 #pragma once
 
 #include "espalier/formats/exporter.h"
@@ -16,14 +16,14 @@ namespace espalier::formats {
 
 class UsdMaterials {
 public:
-    /// The material of all else: it has its displayColor.
+    /// The material of curves: it has their displayColor.
     static constexpr const char* of_colours = "colours";
 
     explicit UsdMaterials(const ExportJob& job) : run_(job.run), copies_(job) {}
 
     /// A picture that is in no file yet; materials name it by `texture`. Throws RunError.
     void add_picture(const std::string& texture, const std::string& png) { copies_.add(texture, png); }
-    /// The name of its prim below /world/materials; "" for a plain colour without a picture.
+    /// The name of its prim below /world/materials.
     const std::string& name(const MeshMaterial& look);
     /// The scope of all that were asked for: a UsdPreviewSurface each, whose picture is read by `st` and times the
     /// colour.

@@ -24,12 +24,13 @@ void append_subset(std::string& text, const std::string& material, const std::ve
 }  // namespace
 
 void append_mesh(std::string& text, const std::string& name, const StillMesh& mesh, std::size_t indent) {
+    const bool is_of_one = mesh.faces.size() == 1;
     fmt::format_to(std::back_inserter(text),
                    "{0:{2}}def Mesh \"{1}\" (\n{0:{2}}    prepend apiSchemas = [\"MaterialBindingAPI\"]\n{0:{2}})\n"
                    "{0:{2}}{{\n{0:{2}}    uniform bool doubleSided = true\n"
                    "{0:{2}}    uniform token subdivisionScheme = \"none\"\n"
                    "{0:{2}}    rel material:binding = </world/materials/{3}>\n",
-                   "", name, indent, mesh.material);
+                   "", name, indent, is_of_one ? mesh.faces.begin()->first : UsdMaterials::of_colours);
     const auto add = [&](const char* declaration, const char* interpolation, std::string value) {
         Samples samples(declaration, interpolation);
         samples.add(0, std::move(value));
@@ -49,12 +50,12 @@ void append_mesh(std::string& text, const std::string& name, const StillMesh& me
         add("color3f[] primvars:displayColor", "uniform", colours(mesh.rgb));
     }
     add("float3[] extent", "", extent(mesh.points, 0));
-    if (!mesh.subsets.empty()) {
+    if (!is_of_one) {
         fmt::format_to(std::back_inserter(text),
                        "{:{}}uniform token subsetFamily:materialBind:familyType = \"nonOverlapping\"\n", "",
                        indent + 4);
+        for (const auto& [material, triangles] : mesh.faces) append_subset(text, material, triangles, indent + 4);
     }
-    for (const auto& [material, triangles] : mesh.subsets) append_subset(text, material, triangles, indent + 4);
     fmt::format_to(std::back_inserter(text), "{:{}}}}\n", "", indent);
 }
 

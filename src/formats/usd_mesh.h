@@ -14,9 +14,8 @@ struct StillMesh {
     const std::vector<std::array<std::uint32_t, 3>>& triangles;
     const std::vector<glm::vec3>&points, &normals;
     const std::vector<glm::vec2>& uvs;
-    const std::vector<Rgb>& rgb;  ///< colours of triangles
-    std::string material = UsdMaterials::of_colours;
-    std::map<std::string, std::vector<std::size_t>> subsets{};  ///< triangles that wear another material
+    const std::vector<Rgb>& rgb;                            ///< colours of triangles
+    std::map<std::string, std::vector<std::size_t>> faces;  ///< triangles that wear each material
 };
 
 /// Appends `def Mesh "name"`, indented by so many blanks.

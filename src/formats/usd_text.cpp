@@ -20,10 +20,12 @@ void Samples::append_to(std::string& text, std::size_t indent) const {
     const std::string metadata =
         metadata_.empty() ? "" : fmt::format(" (\n{0}    interpolation = \"{1}\"\n{0})", margin, metadata_);
     if (values_.size() == 1) return add("{} = {}{}", declaration_, values_[0].second, metadata);
-    if (!metadata.empty()) add("{}{}", declaration_, metadata);
     add("{}.timeSamples = {{", declaration_);
     for (const auto& [step, value] : values_) add("    {}: {},", step, value);
     text += margin + "}\n";
+    // For programs that know no time: what there is at the end. The reader of three.js 0.187 forgets what it is told of
+    // an attribute before its samples, and would show the first of them, which is often nothing.
+    add("{} = {}{}", declaration_, values_.back().second, metadata);
 }
 
 std::string vectors(const std::vector<glm::vec3>& range) {

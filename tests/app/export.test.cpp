@@ -296,3 +296,13 @@ TEST_CASE("export gives axes bark that nobody drew, and refuses what is none", "
     CHECK(complaint("--skin smooth --voxel 1e-7").find("the smallest voxel is") != std::string::npos);
     CHECK(complaint("--skin smooth --step all").find("export one --step") != std::string::npos);
 }
+
+TEST_CASE("export: an option that no format heeds is named", "[app][export]") {
+    const Workplace place;
+    REQUIRE(place.run("run " ESPALIER_SOURCE_DIR "/models/course/02-branching.l --steps 3 --output run").code == 0);
+    const Outcome outcome = place.run("export run --format ply --rate 12 --instances --sides 5");
+    CHECK(outcome.code == 0);
+    CHECK_THAT(outcome.err, Contains("--rate is for gltf, usd") && Contains("--instances is for gltf, usd"));
+    CHECK(outcome.err.find("--sides") == std::string::npos);
+    CHECK(place.run("export run --format gltf --rate 12 --instances --sides 5").err.empty());
+}

@@ -299,6 +299,24 @@ TEST_CASE_METHOD(Nursery, "leaves wear a picture of one's own, wherever the run 
     CHECK_THAT(missing.err, Contains("--leaf-picture nothing.png: there is no such picture"));
 }
 
+TEST_CASE_METHOD(Workplace, "a picture of one's own keeps its colours, unless a colour of the leaves is given",
+                 "[tree]") {
+    REQUIRE(run("leaf-texture --output mine.png --size 64").code == 0);
+    const auto colour = [&](const std::string& options) {
+        REQUIRE(run("tree --age 4 --leaf-picture mine.png --output own.obj " + options).code == 0);
+        const std::string mtl = text_of(path() / "own.mtl");
+        fs::remove(path() / "own.obj");
+        fs::remove(path() / "own.mtl");
+        const std::size_t kd = mtl.rfind("Kd ", mtl.find("tree-mine.png") - 8);
+        return mtl.substr(kd, mtl.find('\n', kd) - kd);
+    };
+    const std::string white = "Kd 1.000000 1.000000 1.000000";
+    CHECK(colour("") == white);
+    CHECK(colour("--preset weeping") == white);
+    CHECK(colour("--leaf-colour 16 --save-settings red.toml") == "Kd 0.643137 0.172549 0.133333");
+    CHECK(colour("--settings red.toml") == "Kd 0.643137 0.172549 0.133333");
+}
+
 TEST_CASE_METHOD(Nursery, "a tree of one age is a part of the tree a year later", "[tree]") {
     REQUIRE(run("tree --quiet --age 5 --run five").code == 0);
     REQUIRE(run("tree --quiet --age 6 --run six").code == 0);

@@ -224,3 +224,44 @@ TEST_CASE("fields become OpenVDB grids with their values, from .vti too", "[expo
 TEST_CASE("a run without fields says so", "[export]") {
     CHECK_THROWS_WITH(ExportedPlant(branched_plant(), "vdb"), Catch::Contains("no fields"));
 }
+
+TEST_CASE("--voxel-corners moves a field back by half a voxel along its own axes, before it is turned upright",
+          "[export]") {
+    const auto transform_of = [](char up, bool corners) {
+        MeshOptions options;
+        options.up = up;
+        const Exported exported("vdb", options, {4}, "", [&](ExportJob& job) { job.voxel_corners = corners; });
+        openvdb::io::File file(exported.files.at(0).path.string());
+        file.open(false);
+        return file.readGrid("light")->transform().copy();
+    };
+    for (const char up : {'y', 'z'}) {
+        const auto centres = transform_of(up, false), corners = transform_of(up, true);
+        for (const openvdb::Vec3d& voxel : {openvdb::Vec3d(0, 0, 0), openvdb::Vec3d(3, 5, -2)}) {
+            const openvdb::Vec3d expected = centres->indexToWorld(voxel - openvdb::Vec3d(0.5));
+            CHECK((corners->indexToWorld(voxel) - expected).length() < 1e-12);
+        }
+    }
+}
+
+TEST_CASE("whoever writes fields and meshes together is told once how Blender sees them", "[export]") {
+    const auto hints_of = [](const std::vector<std::string>& formats, char up) {
+        const RecordedFolder recorded;
+        const RecordedRun run(recorded.folder.path);
+        const std::vector<const RecordedFrame*> frames{&run.frame(0), &run.frame(4)};
+        std::vector<std::string> hints;
+        MeshOptions options;
+        options.up = up;
+        const auto report = [&](const ExportedFile& file) {
+            if (file.path.extension() == ".vdb" && !file.hint.empty()) hints.push_back(file.hint);
+        };
+        export_run({run, frames, options, recorded.folder.path / "export", report}, formats);
+        return hints;
+    };
+    const auto together = hints_of({"obj", "vdb"}, 'y');
+    REQUIRE(together.size() == 1);
+    CHECK_THAT(together[0], Catch::Contains("Blender") && Catch::Contains("--up z"));
+    CHECK(hints_of({"vdb"}, 'y').empty());
+    CHECK(hints_of({"vdb", "csv"}, 'y').empty());
+    CHECK(hints_of({"usd", "vdb"}, 'z').empty());
+}

@@ -1,6 +1,7 @@
 // Growth in one file: glTF's animation and USD's time samples, read as their standards say.
 #include "catch.h"
 #include "formats/exporting.h"
+#include "formats/small_tree.h"
 
 #include <nlohmann/json.hpp>
 
@@ -166,6 +167,42 @@ TEST_CASE("USD's curves grow with time, and its meshes say when they are seen", 
     CHECK(samples(text, "left", "surfaces", "visibility").at(4) == "\"invisible\"");
     CHECK(samples(text, "right", "surfaces", "visibility").at(0) == "\"inherited\"");
     CHECK(numbers_in(samples(text, "right", "surfaces", "faceVertexIndices").at(4)) == std::vector<double>{0, 1, 2});
+}
+
+TEST_CASE("behind its samples every attribute of USD has the value of the last frame", "[export]") {
+    const std::string text = Exported("usd", {}, {0, 4}).text();
+    const std::string samples_of = ".timeSamples = {";
+    std::size_t count = 0;
+    for (std::size_t at = text.find(samples_of); at != std::string::npos; at = text.find(samples_of, at + 1)) {
+        const std::size_t begin = text.rfind('\n', at) + 1, end = text.find("}\n", at);
+        const std::string declaration = text.substr(begin, at - begin);  // with its margin
+        const std::size_t last = text.rfind(": ", end) + 2;
+        const std::string value = text.substr(last, text.rfind(",\n", end) - last);
+        CHECK(text.substr(end + 2).starts_with(declaration + " = " + value));
+        ++count;
+    }
+    CHECK(count > 10);
+    CHECK(text.find("    interpolation = ") != std::string::npos);
+}
+
+TEST_CASE("every colour of a USD mesh is a material, which its faces are bound to", "[export]") {
+    const ExportedPlant exported(SmallTree().plant, "usd", [](ExportJob& job) { job.mesh_axes = true; });
+    const std::string text = bytes_of(exported.files.at(0).path);
+    const std::string subset = "def GeomSubset \"", list = "int[] indices = [";
+    std::size_t subsets = 0, faces = 0;
+    for (std::size_t at = text.find(subset); at != std::string::npos; at = text.find(subset, at + 1)) {
+        const std::size_t begin = at + subset.size();
+        const std::string material = text.substr(begin, text.find('"', begin) - begin);
+        const std::size_t defined = text.find("def Material \"" + material + '"');
+        REQUIRE(defined != std::string::npos);
+        CHECK(text.find("color3f inputs:diffuseColor = (", defined) < text.find("def Material", defined + 1));
+        const std::size_t indices = text.find(list, at) + list.size();
+        const std::string body = text.substr(indices, text.find(']', indices) - indices);
+        faces += static_cast<std::size_t>(std::count(body.begin(), body.end(), ',')) + 1;
+        ++subsets;
+    }
+    CHECK(subsets == 2);  // wood and leaves
+    CHECK(faces == exported.files.at(0).triangles);
 }
 
 TEST_CASE("a USD of one frame has values without times", "[export]") {

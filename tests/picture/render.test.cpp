@@ -176,6 +176,28 @@ TEST_CASE("render: ffmpeg writes the other films, odd sizes too", "[pictures]") 
     CHECK_THROWS_AS(render_film(job, 10, rendered.path("no/growth.gif")), RunError);
 }
 
+TEST_CASE("render: a film says what its colours are, since browsers guess", "[pictures]") {
+    if (!can_draw()) return;
+    if (!has_ffmpeg()) {
+        WARN("skipped: no ffmpeg here");
+        return;
+    }
+    const Rendered rendered;
+    const auto film = [&](const std::string& name) {
+        render_film(rendered.job(), 10, rendered.path(name));
+        return bytes_of(rendered.path(name));
+    };
+    // The elements of Matroska (RFC 9559) for matrix, range, transfer and primaries: 6, limited, sRGB's, BT.709's.
+    const std::string webm = film("growth.webm");
+    CHECK(webm.find("V_VP9") != std::string::npos);
+    for (const std::string element : {"\x55\xB1\x81\x06", "\x55\xB9\x81\x01", "\x55\xBA\x81\x0D", "\x55\xBB\x81\x01"}) {
+        CHECK(webm.find(element) != std::string::npos);
+    }
+    // The box `colr` of ISO 14496-12: primaries, transfer, matrix.
+    const std::string colr("nclx\0\1\0\15\0\6\0", 11);
+    CHECK(film("growth.mp4").find(colr) != std::string::npos);
+}
+
 TEST_CASE("render: where ffmpeg is missing or fails, that is said and no file is left", "[pictures]") {
     if (!can_draw()) return;
     const Rendered rendered;

@@ -121,12 +121,12 @@ TEST_CASE("a world that was saved runs out of memory where it would have without
 TEST_CASE("memory is kept back for what processes need, not for each that there is", "[simulation]") {
     const std::string bush = "axiom: ?E(0)A\nA --> F(1)[+(20)A]-(30)A\n";
     const auto refused = [&](const std::string& processes) {
-        RecordedWorld recorded(bush, "", std::size_t{64} << 20, processes);
+        RecordedWorld recorded(bush, "", std::size_t{72} << 20, processes);
         return without_file(refusal(recorded.world));
     };
     const std::string needs_nothing = "[environment.a]\nprocess = 'honda81'\n";
     const std::string alone = refused(needs_nothing);
-    CHECK_THAT(alone, Contains("--memory leaves 56 MiB"));  // 7/8, as without a process
+    CHECK_THAT(alone, Contains("--memory leaves 63 MiB"));  // 7/8, as without a process
     std::string several = "[environment]\ndefault = 'a'\n" + needs_nothing;
     for (const char* name : {"ecosystem", "cohen", "takenaka", "ulam"})
         several += fmt::format("[environment.{0}]\nprocess = '{0}'\n", name);

@@ -335,7 +335,7 @@ TEST_CASE_METHOD(Spread, "what other ranks send must fit into the memory", "[sim
         return [bytes](RunOptions& options, Ranks&) { options.memory = bytes; };
     };
     CHECK(all_are_silent(run_on(2, described, "enough", with(std::size_t{600} << 20))));
-    for (const std::string& error : run_on(2, described, "little", with(std::size_t{155} << 20))) {
+    for (const std::string& error : run_on(2, described, "little", with(std::size_t{160} << 20))) {
         CHECK_THAT(error, Contains("step 15: what other ranks send of their plants takes"));
     }
 }

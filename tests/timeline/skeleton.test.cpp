@@ -1,4 +1,5 @@
 #include "espalier/base/error.h"
+#include "espalier/base/file.h"
 
 #include "catch.h"
 #include "timeline/collections.h"
@@ -390,4 +391,18 @@ TEST_CASE("a point that the numbers of a file cannot place ends the run in words
     plant.add_internode(2, 1, 1, 0, 0, {0, 1e38, 0}, {0, 1e39, 0}, 1);
     CHECK_THROWS_WITH(record(timeline, 1, {&plant}), Catch::Matchers::Contains("farther than 3.4e+38"));
     CHECK_FALSE(std::filesystem::exists(folder.path / "plants/0001.vtp"));
+}
+
+TEST_CASE("compression = \"zlib\" packs every file of VTK so; another word is refused", "[timeline]") {
+    const RunFolder folder;
+    const HandmadePlant plant = branched_plant();
+    Timeline timeline(folder.path, timeline_table("compression = 'zlib'"), 3);
+    record(timeline, 3, {&plant});
+    timeline.finish();
+    for (const char* file : {"plants/0003.vtp", "lifespans.vtp"}) {
+        CHECK(read_text(folder.path / file).find("vtkZLibDataCompressor") != std::string::npos);
+    }
+    CHECK(values(read_vtp(folder.path / "plants/0003.vtp")->GetCellData(), "identity") == std::vector<double>{1, 2});
+    CHECK_THROWS_WITH(Timeline(folder.path / "other", timeline_table("compression = 'zip'"), 3),
+                      Catch::Matchers::Contains("zlib"));
 }

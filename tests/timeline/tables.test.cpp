@@ -8,6 +8,7 @@
 
 #include <vtkCellData.h>
 #include <vtkPointData.h>
+#include <vtkStringArray.h>
 
 using namespace espalier;
 using namespace espalier::timeline;
@@ -51,6 +52,33 @@ TEST_CASE("every internode has one lifespan: born, dead or still alive", "[timel
     CHECK(rows.at(1) == std::vector<double>{0, 0, 5, 1});
     CHECK(rows.at(2) == std::vector<double>{1, 1, 2, 0});
     CHECK(rows.at(3) == std::vector<double>{1, 3, 5, 1});
+}
+
+TEST_CASE("lifespans say births and deaths in the scene's time, too, and what all is measured in", "[timeline]") {
+    const RunFolder folder;
+    Timeline timeline(folder.path, timeline_table(), 4);
+    for (int step = 0; step < 5; ++step) {
+        const HandmadePlant plant = stem_at(step);
+        Frame frame{step, 0.25 * step, {plant.frame()}};
+        frame.models = {&plant.model};
+        frame.dt = 0.25;
+        frame.time_unit = "d";
+        timeline.record(frame);
+        timeline.wait();
+    }
+    timeline.finish();
+    const auto data = read_vtp(folder.path / "lifespans.vtp");
+    for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i) {
+        const auto value = [&](const char* name) { return data->GetCellData()->GetArray(name)->GetTuple1(i); };
+        CHECK(value("birth_time") == 0.25 * value("birth"));
+        CHECK(value("death_time") == 0.25 * value("death"));
+    }
+    auto* const units = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("units"));
+    REQUIRE(units);
+    CHECK(units->GetNumberOfValues() == 6);
+    CHECK(units->LookupValue("birth: step") >= 0);
+    CHECK(units->LookupValue("birth_time: d") >= 0);
+    CHECK(units->LookupValue("radius: m") >= 0);
 }
 
 TEST_CASE("a lifespan keeps the shape an internode had when last seen", "[timeline]") {

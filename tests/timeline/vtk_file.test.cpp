@@ -249,3 +249,31 @@ TEST_CASE("a file that finds no room is not there, and says why", "[timeline]") 
         RunError);
     CHECK(std::filesystem::is_empty(folder.path()));
 }
+
+TEST_CASE("zlib holds the same values in fewer bytes, and the file says so", "[timeline]") {
+    const TemporaryFolder folder;
+    std::vector<float> points(3 * 40000);
+    std::vector<std::uint64_t> identities(40000);
+    std::mt19937_64 random(11);
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] = static_cast<float>(i / 64) * 0.125f;
+    for (std::size_t i = 0; i < identities.size(); ++i) identities[i] = i % 5 == 0 ? random() : identities[i - 1];
+    const std::vector<DataArray> arrays{data_array<std::uint64_t>("identity", identities)};
+    const auto write = [&](const std::string& name, Compression compression) {
+        VtkFile file(compression);
+        file.begin("PolyData");
+        fill_points(file, folder.path() / name, points, arrays);
+        return folder.path() / name;
+    };
+    const auto lz4 = write("lz4.vtp", Compression::lz4), zlib = write("zlib.vtp", Compression::zlib);
+    CHECK(read_text(lz4).find("vtkLZ4DataCompressor") != std::string::npos);
+    CHECK(read_text(zlib).find("vtkZLibDataCompressor") != std::string::npos);
+    CHECK(std::filesystem::file_size(zlib) < std::filesystem::file_size(lz4));
+    const auto data = read(zlib);
+    REQUIRE(data->GetNumberOfPoints() == 40000);
+    for (vtkIdType i = 0; i < 40000; i += 1111) {
+        for (int k = 0; k < 3; ++k)
+            CHECK(data->GetPoint(i)[k] == points[3 * static_cast<std::size_t>(i) + static_cast<std::size_t>(k)]);
+    }
+    CHECK(read(lz4)->GetPointData()->GetArray("identity")->GetVariantValue(39999) ==
+          data->GetPointData()->GetArray("identity")->GetVariantValue(39999));
+}

@@ -45,6 +45,8 @@ struct ExportJob {
     bool instances = false;         ///< organs that look alike are one shape in many places
     bool mesh_axes = false;         ///< axes are meshes where the format has curves
     std::string bark{};             ///< the texture of axes that wear none: a file
+    bool voxel_corners = false;     ///< a voxel stands where its lower corner is, not its centre: for Blender
+    bool beside_meshes = false;     ///< fields are written with meshes that Blender turns upright
     std::size_t most_vertices = 0;  ///< most vertices of a mesh, which is otherwise cut into pieces; 0: any number
 
     // How files are named.

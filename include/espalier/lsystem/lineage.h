@@ -22,12 +22,19 @@ struct Siblings {
     Identity parent;      ///< identity of the parent; for the axiom, what its identities are made from
     std::uint32_t step;   ///< step of birth
     std::uint32_t depth;  ///< level of the decomposition that made them, 0: the production itself; or `axiom`
+    /// With a module's place it is the module's number, once these are given (birth_numbers.h): it may be below 0,
+    /// which wraps around.
+    std::uint64_t first_number = 0;
 
     Identity identity(std::uint32_t place) const { return mix(origin() ^ place); }
     /// What the identities of all siblings are made from.
     std::uint64_t origin() const {
         const std::uint64_t level = depth == axiom ? 0 : depth;
         return mix(parent, step) ^ level << 32;
+    }
+    /// Whether these are the same siblings, though in another row.
+    bool is_same_as(const Siblings& other) const {
+        return parent == other.parent && step == other.step && depth == other.depth;
     }
 };
 

@@ -35,6 +35,10 @@ struct ModuleString {
         return born.depth == Siblings::axiom ? 0 : born.parent;
     }
     std::uint32_t step_of_birth(std::size_t module) const { return siblings[births[module].siblings].step; }
+    /// How many modules of the run were born before it, if births are numbered; else its place among its siblings.
+    std::uint64_t birth_number(std::size_t module) const {
+        return siblings[births[module].siblings].first_number + births[module].place;
+    }
 
     /// Forgets the modules, keeps the memory.
     void clear();

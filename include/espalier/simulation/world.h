@@ -32,6 +32,7 @@ struct DerivedStep {
     };
     int step = 0;
     std::vector<OfPlant> plants;
+    std::uint64_t births = 0;  ///< modules that were born until then
 };
 
 /// Worlds share nothing: several may grow at once, each on a thread of its own.

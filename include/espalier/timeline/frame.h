@@ -46,6 +46,8 @@ struct Frame {
     /// Of a frame that several processes write, a file each in turn: the number of the file that shows these plants. In
     /// the last part, which has none and comes when all files are there: how many there are.
     std::optional<int> piece = {};
+    double dt = 1;                   ///< between steps, scene's unit
+    std::string time_unit = "step";  ///< name of that unit
 };
 
 }  // namespace espalier::timeline

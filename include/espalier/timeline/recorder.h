@@ -4,6 +4,7 @@
 #include "espalier/base/registry.h"
 #include "espalier/base/settings.h"
 #include "espalier/base/stations.h"
+#include "espalier/timeline/compression.h"
 #include "espalier/timeline/frame.h"
 
 #include <filesystem>
@@ -18,6 +19,7 @@ namespace espalier::timeline {
 struct RecorderContext {
     std::filesystem::path folder;  ///< where the timeline goes; exists
     int last_step = 0;             ///< last step of the run as planned
+    Compression compression = Compression::lz4;
 };
 
 /// Bytes that recording takes, besides the frame itself.

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace espalier::app {
@@ -56,6 +57,9 @@ public:
             ->capture_default_str();
         app().add_flag("--grouped", grouped_,
                        "gltf: in animations, what is born and dies at the same steps is one object");
+        app().add_flag(
+            "--voxel-corners", voxel_corners_,
+            "vdb: a voxel stands where its lower corner is, as Blender draws it; default: where its centre is");
         app().add_flag("--keep", keep_, "never replace a file: a new one is numbered, as in tree-2.obj");
         app().add_flag("--quiet", quiet_, "print errors only");
         add_json_flag("print the names of the files as JSON");
@@ -91,6 +95,8 @@ Examples:
         if (!plant_.empty()) job.options.plant = recorded.plant(plant_);
         job.steps_per_second = rate_;
         job.grouped = grouped_;
+        job.voxel_corners = voxel_corners_;
+        if (!quiet_) name_unused(target.formats);
         job.keep = keep_;
         export_run(job, target.formats);
         if (wants_json()) {
@@ -105,6 +111,26 @@ private:
         std::string name;
         std::vector<std::string> formats;
     };
+
+    /// Options that none of the formats heeds.
+    void name_unused(const std::vector<std::string>& formats) {
+        const std::vector<std::pair<std::string, std::vector<std::string>>> heeded_by{
+            {"--rate", {"gltf", "usd"}},
+            {"--grouped", {"gltf"}},
+            {"--voxel-corners", {"vdb"}},
+            {"--instances", {"gltf", "usd"}},
+            {"--mesh-axes", {"usd"}},
+            {"--split", {"obj", "gltf", "ply", "stl"}},
+            {"--sides", {"obj", "gltf", "ply", "stl", "usd"}}};
+        for (const auto& [option, heeding] : heeded_by) {
+            const bool is_heeded =
+                std::any_of(formats.begin(), formats.end(), [&formats = heeding](const auto& format) {
+                    return std::find(formats.begin(), formats.end(), format) != formats.end();
+                });
+            if (app().count(option) == 0 || is_heeded) continue;
+            fmt::print(stderr, "{} is for {}: nothing here heeds it\n", option, fmt::join(heeding, ", "));
+        }
+    }
 
     Target target() const {
         const std::string told = format_of_extension(output_.extension().string());
@@ -123,7 +149,7 @@ private:
     std::vector<std::string> formats_;
     std::string step_ = "last", plant_;
     double rate_ = 24;
-    bool grouped_ = false, keep_ = false, quiet_ = false;
+    bool grouped_ = false, voxel_corners_ = false, keep_ = false, quiet_ = false;
     MeshFileOptions mesh_;
 };
 

@@ -105,7 +105,7 @@ public:
         app().footer(R"(Examples:
   espalier render output/two-trees                                        the last frame, as a picture
   espalier render environments/two-trees.toml --output trees.png          grows the scene first
-  espalier render output/two-trees --output growth.ogv --orbit 90         a film; the camera moves around
+  espalier render output/two-trees --output growth.webm --orbit 90        a film; the camera moves around
   espalier render output/two-trees --sheet 4x2 --output sheet.png         eight stages of growth on one page
   espalier render output/two-trees --colour-by birth --scale-bar --dark
   espalier render output/two-trees --field light:slice=z --colour-by light
@@ -155,7 +155,7 @@ private:
     void add_output_options() {
         app().add_option(
             "--output", output_,
-            "a picture: .png; or a film: .ogv, and with ffmpeg .mp4, .webm, .gif; default: RUN/render.png");
+            "a picture: .png; or a film, with ffmpeg: .webm, .mp4, .gif; without: .ogv; default: RUN/render.png");
         app().add_option("--step", step_,
                          std::string(frame_option_help) + "; default: last for a picture, all for a film or a sheet");
         app().add_option("--sheet", sheet_, "COLUMNSxROWS frames on one page, evenly chosen from those of --step");
@@ -349,7 +349,7 @@ private:
 
     void require_no_between(const fs::path& output) const {
         if (between_ == 0) return;
-        throw UserError(fmt::format("--between {}: '{}' is no film; take --output growth.ogv (or .mp4, .webm, .gif)",
+        throw UserError(fmt::format("--between {}: '{}' is no film; take --output growth.webm (or .mp4, .gif, .ogv)",
                                     between_, output.string()));
     }
 

@@ -113,8 +113,10 @@ public:
         app().add_option("--settings", settings_, "a file with settings: crown-width = 6 in a line of its own");
         app().add_option("--save-settings", saved_, "write all settings, and the seed, to a file for --settings");
         app().add_option("--seed", seed_, "seed of all random numbers; new: draw a seed and print it");
-        app().add_option("--leaf-picture", leaf_picture_,
-                         "PNG with opacity that leaves wear; default: that of the scene. See espalier leaf-texture");
+        app().add_option(
+            "--leaf-picture", leaf_picture_,
+            "PNG with opacity that leaves wear, in its own colours unless --leaf-colour is given; default: "
+            "that of the scene. See espalier leaf-texture");
         app().add_option("--run", run_, "keep the run in this folder; default: it is removed");
         app()
             .add_option("--threads", arguments_.threads, "number of threads; default: all cores")
@@ -206,6 +208,7 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
     void collect_values() {
         SettingValues& values = kind_->values;
         if (!preset_.empty()) values.read(kind_->preset(preset_));
+        if (!leaf_picture_.empty()) show_picture_as_it_is(values);
         if (!settings_.empty()) values.read(settings_);
         for (const auto& [setting, text] : said_) values.set(*setting, text);
         const auto said = [this](const char* name) {
@@ -216,6 +219,14 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
         const std::string* const index = said("LEAF_AREA_INDEX");
         if (!arguments_.quiet && said("LEAVES") && index && finite_number(*index).value_or(0) > 0) {
             fmt::print(stderr, "warning: --leaves is not used: --leaf-area-index says how many leaves there are\n");
+        }
+    }
+
+    /// A picture is multiplied by the colour of the leaves, which is white unless --settings or an option says another.
+    static void show_picture_as_it_is(SettingValues& values) {
+        constexpr int white = 17;  // in the colour map of the scene
+        for (const ModelSetting& setting : values.settings()) {
+            if (setting.name == "LEAF_COLOUR" && setting.allows(white)) values.set(setting, std::to_string(white));
         }
     }
 

@@ -252,8 +252,12 @@ ShapePointer read_difference(Settings& table) {
     return std::make_shared<Intersection>(read_parts(table), true);
 }
 
-ShapePointer place(ShapePointer shape, Settings& table) {
-    const double scale = table.number_or("scale", 1, Range::positive());
+double scale_of(const Settings& table) {
+    return table.number_or("scale", 1, Range::positive());
+}
+
+ShapePointer place(ShapePointer shape, Settings& table, bool is_scaled) {
+    const double scale = is_scaled ? 1 : scale_of(table);
     const glm::dquat rotation = read_rotation(table);
     const glm::dvec3 translation = table.vector_or("translate", {0, 0, 0});
     const double growth = table.number_or("offset", 0);

@@ -25,8 +25,10 @@ ShapePointer read_height_field(Settings& table);
 ShapePointer read_union(Settings& table);
 ShapePointer read_intersection(Settings& table);
 ShapePointer read_difference(Settings& table);
-/// Applies the keys every shape has: scale, rotate, translate, offset.
-ShapePointer place(ShapePointer shape, Settings& table);
+/// The key `scale`, which every shape has.
+double scale_of(const Settings& table);
+/// Applies the keys every shape has: scale, rotate, translate, offset. `is_scaled`: the shape has its scale already.
+ShapePointer place(ShapePointer shape, Settings& table, bool is_scaled);
 
 /// The sample at `point` whose nearest point of the surface is known. `surface_normal` serves where the two coincide.
 Shape::Sample sample_of(const glm::dvec3& point, const glm::dvec3& nearest, bool inside,

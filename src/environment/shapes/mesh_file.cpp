@@ -9,13 +9,17 @@
 #include "geometry/side_files/obj_mesh.h"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <compare>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
+#include <utility>
 
 namespace espalier::environment {
 namespace {
@@ -92,6 +96,10 @@ public:
         if (is_new) points_.push_back(point);
         return at->second;
     }
+    std::optional<std::uint32_t> find(const glm::dvec3& point) const {
+        const auto at = numbers_.find(point);
+        return at == numbers_.end() ? std::nullopt : std::optional(at->second);
+    }
     std::vector<glm::dvec3> points() && { return std::move(points_); }
 
 private:
@@ -132,6 +140,126 @@ TriangleMesh triangulated(const PolygonMesh& polygons) {
     return mesh;
 }
 
+double longest_side(const Box& box) {
+    const glm::dvec3 extent = box.upper - box.lower;
+    return std::max({extent.x, extent.y, extent.z});
+}
+
+/// Joins points as near to each other as the rounding of a writer with seven digits leaves copies of one.
+TriangleMesh welded(const TriangleMesh& mesh) {
+    const Box box = mesh.bounds();
+    const double tolerance = 1e-6 * longest_side(box);
+    const auto cell_of = [&](const glm::dvec3& point) { return glm::floor((point - box.lower) / tolerance); };
+    PointNumbers cells;
+    std::vector<std::vector<std::uint32_t>> points_of;  // by cell: those of the points that are kept
+    TriangleMesh result;
+    const auto known_near = [&](const glm::dvec3& point) -> std::optional<std::uint32_t> {
+        for (int k = 0; k < 27; ++k) {
+            const std::optional<std::uint32_t> cell =
+                cells.find(cell_of(point) + glm::dvec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
+            if (!cell) continue;
+            for (const std::uint32_t other : points_of[*cell]) {
+                if (glm::distance(result.points[other], point) <= tolerance) return other;
+            }
+        }
+        return {};
+    };
+    std::vector<std::uint32_t> now;
+    for (const glm::dvec3& point : mesh.points) {
+        std::optional<std::uint32_t> number = known_near(point);
+        if (!number) {
+            number = static_cast<std::uint32_t>(result.points.size());
+            result.points.push_back(point);
+            points_of.resize(std::max<std::size_t>(points_of.size(), cells.number(cell_of(point)) + 1));
+            points_of[cells.number(cell_of(point))].push_back(*number);
+        }
+        now.push_back(*number);
+    }
+    for (const auto& corners : mesh.triangles) {
+        const std::uint32_t a = now[corners[0]], b = now[corners[1]], c = now[corners[2]];
+        if (a != b && b != c && c != a) result.triangles.push_back({a, b, c});
+    }
+    return result;
+}
+
+/// Turns triangles so that neighbours face the same way, and every part of the mesh outward. Some programs write
+/// triangles either way around.
+class Facing {
+public:
+    explicit Facing(TriangleMesh& mesh) : mesh_(mesh), is_done_(mesh.triangles.size()) {
+        for (std::uint32_t triangle = 0; triangle < mesh.triangles.size(); ++triangle) {
+            for (int i = 0; i < 3; ++i) sides_.push_back({edge(triangle, i), triangle});
+        }
+        std::sort(sides_.begin(), sides_.end());
+    }
+
+    void run() {
+        for (std::uint32_t triangle = 0; triangle < mesh_.triangles.size(); ++triangle) {
+            if (!is_done_[triangle]) turn_part(triangle);
+        }
+    }
+
+private:
+    struct Side {
+        std::uint64_t edge;
+        std::uint32_t triangle;
+        auto operator<=>(const Side&) const = default;
+    };
+
+    std::uint64_t edge(std::uint32_t triangle, int side) const {
+        const auto& corners = mesh_.triangles[triangle];
+        const auto [low, high] =
+            std::minmax(corners[static_cast<std::size_t>(side)], corners[static_cast<std::size_t>((side + 1) % 3)]);
+        return std::uint64_t{low} << 32 | high;
+    }
+
+    /// Whether the triangle runs along an edge from its lower to its higher point.
+    bool ascends(std::uint32_t triangle, std::uint64_t edge) const {
+        const auto low = static_cast<std::uint32_t>(edge >> 32), high = static_cast<std::uint32_t>(edge);
+        const auto& [a, b, c] = mesh_.triangles[triangle];
+        return (a == low && b == high) || (b == low && c == high) || (c == low && a == high);
+    }
+
+    void turn(std::uint32_t triangle) { std::swap(mesh_.triangles[triangle][1], mesh_.triangles[triangle][2]); }
+
+    /// The triangles that are reached over edges of two triangles, which say how both must face.
+    void turn_part(std::uint32_t first) {
+        std::vector<std::uint32_t> part{first};
+        is_done_[first] = true;
+        for (std::size_t k = 0; k < part.size(); ++k) {
+            for (int side = 0; side < 3; ++side) visit_neighbour(part[k], edge(part[k], side), part);
+        }
+        double volume = 0;
+        const glm::dvec3 origin = mesh_.points[mesh_.triangles[first][0]];
+        for (const std::uint32_t triangle : part) {
+            const auto& [a, b, c] = mesh_.triangles[triangle];
+            volume +=
+                glm::dot(mesh_.points[a] - origin, glm::cross(mesh_.points[b] - origin, mesh_.points[c] - origin));
+        }
+        if (volume >= 0) return;
+        for (const std::uint32_t triangle : part) turn(triangle);
+    }
+
+    void visit_neighbour(std::uint32_t triangle, std::uint64_t edge, std::vector<std::uint32_t>& part) {
+        const auto begin = std::lower_bound(sides_.begin(), sides_.end(), Side{edge, 0});
+        if (sides_.end() - begin < 2 || begin[1].edge != edge) return;
+        if (sides_.end() - begin > 2 && begin[2].edge == edge) return;
+        const std::uint32_t other = begin[0].triangle == triangle ? begin[1].triangle : begin[0].triangle;
+        if (is_done_[other]) return;
+        is_done_[other] = true;
+        if (ascends(triangle, edge) == ascends(other, edge)) turn(other);
+        part.push_back(other);
+    }
+
+    TriangleMesh& mesh_;
+    std::vector<Side> sides_;
+    std::vector<bool> is_done_;
+};
+
+void face_outward(TriangleMesh& mesh) {
+    Facing(mesh).run();
+}
+
 /// Edges that an odd number of triangles share: past them one can walk from outside to inside.
 std::size_t open_edges(const TriangleMesh& mesh) {
     std::vector<std::uint64_t> edges;
@@ -155,28 +283,30 @@ std::size_t open_edges(const TriangleMesh& mesh) {
 /// Flat meshes are closed and hold nothing. Relative to the extent, because metres or millimetres are the user's.
 bool has_volume(const TriangleMesh& mesh) {
     const Box box = mesh.bounds();
-    const glm::dvec3 extent = box.upper - box.lower;
     double six_volumes = 0;
     for (const auto& [a, b, c] : mesh.triangles) {
         six_volumes +=
             glm::dot(mesh.points[a] - box.lower, glm::cross(mesh.points[b] - box.lower, mesh.points[c] - box.lower));
     }
-    const double longest = std::max({extent.x, extent.y, extent.z});
+    const double longest = longest_side(box);
     return std::abs(six_volumes) > 1e-9 * longest * longest * longest;
 }
 
 }  // namespace
 
-TriangleMesh read_mesh_file(const std::filesystem::path& file, const Place& place) {
+TriangleMesh read_mesh_file(const std::filesystem::path& file, double scale, const Place& place) {
     require_file(file, place);
     const PolygonMesh polygons = read_polygons(file, place);
     require_sound(polygons, file, place);
     TriangleMesh mesh = triangulated(polygons);
+    for (glm::dvec3& point : mesh.points) point *= scale;
+    if (!mesh.triangles.empty() && open_edges(mesh) > 0) mesh = welded(mesh);
     if (mesh.triangles.empty()) throw UserError(place, fmt::format("{} has no triangle with an area", file.string()));
     if (const std::size_t open = open_edges(mesh)) {
         throw UserError(place, fmt::format("{} is not closed: {} of its edges {} open, so it has no inside",
                                            file.string(), open, open == 1 ? "is" : "are"));
     }
+    face_outward(mesh);
     if (!has_volume(mesh)) throw UserError(place, fmt::format("{} is flat: it encloses no volume", file.string()));
     return mesh;
 }

@@ -9,9 +9,10 @@
 
 namespace espalier::environment {
 
-/// A closed triangle mesh of OBJ, STL or PLY. `place` is where the file was asked for.
+/// A closed triangle mesh of OBJ, STL or PLY, so many times as large as in the file, with its triangles facing outward.
+/// `place` is where the file was asked for.
 /// Throws UserError: missing, not a mesh, empty, points that are NaN, open edges, no volume.
-TriangleMesh read_mesh_file(const std::filesystem::path& file, const Place& place);
+TriangleMesh read_mesh_file(const std::filesystem::path& file, double scale, const Place& place);
 
 struct HeightImage {
     std::size_t columns = 0;

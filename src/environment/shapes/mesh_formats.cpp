@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -25,6 +26,12 @@ std::string_view take_word(std::string_view& text) {
     const std::string_view word(begin, end);
     text = std::string_view(end, text.end());
     return word;
+}
+
+/// Whether a word is this keyword, in letters of either size.
+bool is_keyword(std::string_view word, std::string_view keyword) {
+    return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
+                      [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
 }
 
 std::string_view take_line(std::string_view& text) {
@@ -223,8 +230,8 @@ PolygonMesh parse_text_stl(std::string_view text) {
     while (!text.empty()) {
         std::string_view line = take_line(text);
         const std::string_view keyword = take_word(line);
-        ended |= keyword == "endsolid";
-        if (keyword != "vertex") continue;
+        ended |= is_keyword(keyword, "endsolid");
+        if (!is_keyword(keyword, "vertex")) continue;
         mesh.points.push_back(take_point(line));
         if (mesh.points.size() % 3 == 0) add_triangle(mesh);
     }
@@ -243,7 +250,7 @@ PolygonMesh parse_stl(std::string_view bytes) {
         if (static_cast<double>(bytes.size() - head) == 50 * triangles) return parse_binary_stl(bytes);
     }
     std::string_view text = bytes;
-    if (take_word(text) == "solid") return parse_text_stl(bytes);
+    if (is_keyword(take_word(text), "solid")) return parse_text_stl(bytes);
     if (bytes.size() < head) throw MeshFormatError("it is neither a text nor a binary STL");
     return parse_binary_stl(bytes);
 }

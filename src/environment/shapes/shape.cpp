@@ -15,6 +15,7 @@ namespace {
 struct Kind {
     const char* name;
     ShapePointer (*read)(Settings&);
+    bool scales_itself = false;  ///< what is read has its `scale` already
 };
 
 constexpr Kind kinds[] = {
@@ -26,7 +27,7 @@ constexpr Kind kinds[] = {
     {"tube", read_tube},
     {"half-space", read_half_space},
     {"height-field", read_height_field},
-    {"mesh", read_mesh},
+    {"mesh", read_mesh, /*scales_itself=*/true},
     {"union", read_union},
     {"intersection", read_intersection},
     {"difference", read_difference},
@@ -46,7 +47,8 @@ const Kind& kind_of(const Settings& table) {
 }  // namespace
 
 std::shared_ptr<const Shape> read_shape(Settings& table) {
-    return place(kind_of(table).read(table), table);
+    const Kind& kind = kind_of(table);
+    return place(kind.read(table), table, kind.scales_itself);
 }
 
 Shape::Sample sample_of(const glm::dvec3& point, const glm::dvec3& nearest, bool inside,

@@ -169,7 +169,7 @@ Heights read_heights(Settings& table) {
 ShapePointer read_mesh(Settings& table) {
     const std::filesystem::path file = table.path("file");
     const Place place = table.place("file");
-    TriangleMesh mesh = read_mesh_file(file, place);
+    TriangleMesh mesh = read_mesh_file(file, scale_of(table), place);
     const glm::dvec3 extent = mesh.bounds().upper - mesh.bounds().lower;
     const double longest = std::max({extent.x, extent.y, extent.z});
     const double voxel = table.number_or("voxel", longest / 128, Range::positive());

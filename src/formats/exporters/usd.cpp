@@ -50,8 +50,7 @@ public:
         for (std::size_t i = 0; i < mesh.material_of.size(); ++i) {
             const MeshMaterial& look = mesh.materials[mesh.material_of[i]];
             rgb.push_back(look.rgb);
-            const std::string& name = materials.name(look);
-            if (!name.empty()) faces_[name][step].push_back(i);
+            faces_[materials.name(look)][step].push_back(i);
         }
         steps_.push_back(step);
         triangles_ += rgb.size();
@@ -70,7 +69,7 @@ public:
     std::size_t triangles() const { return triangles_; }
 
     void append_axes_to(std::string& text) const {
-        append_head(text, "BasisCurves", "axes");
+        append_head(text, "BasisCurves", "axes", UsdMaterials::of_colours);
         text += "            uniform token type = \"linear\"\n";
         for (const Samples* samples : {&counts_, &points_, &widths_, &colours_, &births_, &extent_, &shown_}) {
             samples->append_to(text);
@@ -80,12 +79,13 @@ public:
 
     /// The surfaces, and with them the axes where those are meshes.
     void append_mesh_to(std::string& text) const {
-        append_head(text, "Mesh", "surfaces");
+        const bool is_of_one = faces_.size() == 1;
+        append_head(text, "Mesh", "surfaces", is_of_one ? faces_.begin()->first : UsdMaterials::of_colours);
         text += "            uniform bool doubleSided = true\n            uniform token subdivisionScheme = \"none\"\n";
-        if (!faces_.empty()) {
+        if (faces_.size() > 1) {
             text += "            uniform token subsetFamily:materialBind:familyType = \"nonOverlapping\"\n";
+            for (const auto& [material, faces] : faces_) append_subset(text, material, faces);
         }
-        for (const auto& [material, faces] : faces_) append_subset(text, material, faces);
         for (const Samples* samples :
              {&face_counts_, &corners_, &mesh_points_, &normals_, &uvs_, &mesh_colours_, &mesh_extent_, &mesh_shown_}) {
             samples->append_to(text);
@@ -94,11 +94,11 @@ public:
     }
 
 private:
-    static void append_head(std::string& text, const char* type, const char* name) {
+    static void append_head(std::string& text, const char* type, const char* name, const std::string& material) {
         fmt::format_to(std::back_inserter(text),
                        "        def {} \"{}\" (\n            prepend apiSchemas = [\"MaterialBindingAPI\"]\n        )\n"
                        "        {{\n            rel material:binding = </world/materials/{}>\n",
-                       type, name, UsdMaterials::of_colours);
+                       type, name, material);
     }
 
     /// The faces that wear a material at each step.
@@ -274,6 +274,7 @@ const Registered<ExporterType> entry{
      "that look alike are one shape in many places. A step is a time code, --rate of them a second; --step all for "
      "the\n"
      "whole growth.\n"
+     "three.js and Apple's viewers show no curves: give them --mesh-axes.\n"
      "Lost: identities, parameters; --sides and textures of axes mean nothing to curves",
      construct<Usd>}};
 

@@ -21,8 +21,8 @@ public:
         std::size_t written = 0;
         for (const RecordedFrame* frame : job.frames) {
             for (const auto& [name, file] : frame->fields) {
-                write(job, *frame, name, file);
-                ++written;
+                const bool lies = written++ == 0 && job.beside_meshes && job.options.up == 'y';
+                write(job, *frame, name, file, lies ? lies_in_blender : "");
             }
         }
         if (written == 0) {
@@ -34,21 +34,30 @@ public:
     }
 
 private:
+    static constexpr const char* lies_in_blender =
+        "Blender turns the meshes of glTF, OBJ and USD upright, but no volume: for it, write the fields with --format "
+        "vdb "
+        "--up z --voxel-corners";
+
     static void write(const ExportJob& job, const RecordedFrame& frame, const std::string& name,
-                      const std::filesystem::path& file) {
+                      const std::filesystem::path& file, const std::string& hint) {
         Field field = read_grid(file, name);
         openvdb::FloatGrid& grid = *field.grid->grid;
+        if (job.voxel_corners) grid.transform().preTranslate(openvdb::Vec3d(-0.5));
         if (job.options.up == 'z') grid.transform().postRotate(std::numbers::pi / 2, openvdb::math::X_AXIS);
         const auto path = job.path(frame, name + ".vdb");
         write_vdb(path, field);
-        job.report({path, 0, 0, static_cast<std::size_t>(grid.activeVoxelCount()), "active voxels"});
+        job.report({path, 0, 0, static_cast<std::size_t>(grid.activeVoxelCount()), "active voxels", hint});
     }
 };
 
 const Registered<ExporterType> entry{
     {"vdb", "the recorded fields as OpenVDB grids, a file per frame and field",
-     "The grid bears the field's name, with unit and meaning; equal fields give equal bytes.\n"
-     "Blender and Houdini open it beside a mesh of the same frame",
+     "The grid bears the field's name, with unit and meaning; equal fields give equal bytes. Houdini opens it beside "
+     "a\n"
+     "mesh of the same frame. So does Blender with --up z, as it turns meshes from y up to z up but no volumes, and "
+     "with\n"
+     "--voxel-corners, as it draws the value of a voxel half a voxel beyond its centre",
      construct<Vdb>, /*of_fields=*/true}};
 
 }  // namespace

@@ -10,8 +10,9 @@
 namespace espalier::geometry {
 namespace {
 
-constexpr std::string_view blanks = " \t\r";
-constexpr std::string_view ends_of_word = " \t\r\n/";
+// Behind a backslash a line goes on in the next one.
+constexpr std::string_view blanks = " \t\r\n\\";
+constexpr std::string_view ends_of_word = " \t\r\n/\\";
 
 class ObjReader {
 public:
@@ -19,7 +20,7 @@ public:
 
     ObjMesh read() {
         while (!text_.at_end()) {
-            TextCursor line = text_.line();
+            TextCursor line = text_.continued_line();
             line.skip(blanks);
             const TextCursor begin = line;
             const std::string_view key = line.word(ends_of_word);

@@ -60,18 +60,27 @@ private:
     vtkNew<vtkOggTheoraWriter> writer_;
 };
 
+// What a pixel's brightness and colour differences mean. Where a film does not say so, browsers guess, each in its own
+// way: a green of 108 becomes 103 or 110.
+constexpr const char* with_even_sides =
+    "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=smpte170m:out_range=tv,format=yuv420p";
+const std::vector<std::string> tags{"-colorspace",      "smpte170m", "-color_range", "tv",
+                                    "-color_primaries", "bt709",     "-color_trc",   "iec61966-2-1"};
+
 /// How each kind is encoded: for any player, with even sides where the format wants them.
 std::vector<std::string> encoding_of(const std::string& extension) {
-    const std::string even = "pad=ceil(iw/2)*2:ceil(ih/2)*2";
     if (extension == ".gif") {
         return {"-filter_complex",
                 "split[a][b];[a]palettegen=max_colors=128[p];[b][p]paletteuse=dither=none:diff_mode=rectangle", "-loop",
                 "0"};
     }
-    if (extension == ".webm") {
-        return {"-c:v", "libvpx-vp9", "-pix_fmt", "yuv420p", "-crf", "30", "-b:v", "0", "-vf", even};
-    }
-    return {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart", "-vf", even};
+    std::vector<std::string> words{"-vf", with_even_sides};
+    words.insert(words.end(), tags.begin(), tags.end());
+    const std::vector<std::string> codec =
+        extension == ".webm" ? std::vector<std::string>{"-c:v", "libvpx-vp9", "-row-mt", "1", "-crf", "30", "-b:v", "0"}
+                             : std::vector<std::string>{"-c:v", "libx264", "-crf", "18", "-movflags", "+faststart"};
+    words.insert(words.end(), codec.begin(), codec.end());
+    return words;
 }
 
 constexpr const char* ffmpeg = "ffmpeg";
@@ -79,7 +88,7 @@ constexpr const char* ffmpeg = "ffmpeg";
 [[noreturn]] void reject_without_ffmpeg(const fs::path& path, const std::error_code& error) {
     throw RunError(
         fmt::format("{} is written by ffmpeg, which is not here ({}).\n"
-                    "On Debian: apt-get install ffmpeg; .ogv needs nothing more",
+                    "On Debian: apt-get install ffmpeg; .ogv (Theora) needs nothing more, but browsers do not play it",
                     path.extension().string(), error.message()));
 }
 

@@ -20,8 +20,8 @@ public:
     virtual void finish() = 0;
 };
 
-/// What the extension says: .ogv is written by VTK itself, .mp4, .webm and .gif by ffmpeg. Throws RunError saying what
-/// to install if there is none.
+/// What the extension says: .webm (VP9), .mp4 (H.264) and .gif are written by ffmpeg, .ogv (Theora) by VTK itself.
+/// Throws RunError saying what to install if there is none.
 std::unique_ptr<Film> film_of(const std::filesystem::path& path, const PictureSize& size, double pictures_per_second);
 
 /// The path's extension in small letters: ".png".

@@ -218,7 +218,7 @@ bool is_film(const fs::path& path) {
 void require_png(const fs::path& path) {
     if (kind_of_file(path) == ".png") return;
     throw UserError(
-        fmt::format("'{}' is no picture that can be written: .png, or a film: .ogv, .mp4, .webm, .gif", path.string()));
+        fmt::format("'{}' is no picture that can be written: .png, or a film: .webm, .mp4, .gif, .ogv", path.string()));
 }
 
 std::vector<std::string> colours_of_every_run() {
@@ -248,7 +248,7 @@ std::vector<fs::path> render_pictures(const RenderJob& job, const fs::path& path
 }
 
 void render_film(const RenderJob& job, double pictures_per_second, const fs::path& path) {
-    if (!is_film(path)) throw UserError(fmt::format("'{}' is no film: .ogv, .mp4, .webm or .gif", path.string()));
+    if (!is_film(path)) throw UserError(fmt::format("'{}' is no film: .webm, .mp4, .gif or .ogv", path.string()));
     RenderJob opaque = job;
     opaque.style.background.transparent = false;
     JobPainter painter(opaque);

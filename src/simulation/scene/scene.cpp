@@ -301,6 +301,7 @@ const char* scene_help() {
   every        1; steps between frames; the last step is always a frame
   keyframes    none; [step, ...]: these frames; together with `first` or `every`, besides theirs
   animation    none; animation file (.a) that selects the frames, instead of `first`, `every` and `keyframes`
+  compression  "lz4", or "zlib"; of .vtp and .vti: zlib takes longer, and makes smaller files that browsers read, too
 
 influence = "= 3 * LENGTH": a text that begins with = is an expression in the #defines of a model: of its own plant in
 [[plant]] (positions, grid, turtle, stages), of the first in [simulation], [environment] and [timeline]. Flags may be 0 or 1.

@@ -159,6 +159,7 @@ void put_state(std::ostream& out, const GrowingPlant& plant) {
     plant.derivation.save(out);
     save_string(*plant.string, out);
     put(out, plant.memory);
+    if (plant.numbers) plant.numbers->save(out);
 }
 
 void get_state(std::istream& in, GrowingPlant& plant, std::size_t memory) {
@@ -167,6 +168,8 @@ void get_state(std::istream& in, GrowingPlant& plant, std::size_t memory) {
     require_modules_of(plant.model().alphabet, *plant.string);
     plant.note_derived();
     plant.memory = get<PlantMemory>(in);
+    plant.born = 0;  // it was saved with its numbers
+    if (plant.numbers) plant.numbers->restore(in);
 }
 
 }  // namespace espalier::simulation

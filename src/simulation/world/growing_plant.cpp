@@ -35,7 +35,23 @@ GrowingPlant::GrowingPlant(std::uint32_t plant, const Plant& from, std::shared_p
       symbols_(std::move(symbols)),
       insertions_(from),
       settings_(settings) {
+    if (from.in_time) numbers = std::make_unique<lsystem::KeptNumbers>();
     note_derived();
+}
+
+void GrowingPlant::count_births() {
+    born = 0;
+    if (!string->has_lineage()) return;
+    const auto step = static_cast<std::uint32_t>(derivation.steps_done());
+    born = numbers ? numbers->unknown(*string) : lsystem::births_in(*string, step);
+}
+
+void GrowingPlant::number_births() {
+    if (born == 0) return;
+    if (numbers)
+        numbers->number(*string, births_before);
+    else
+        lsystem::number_births(*string, static_cast<std::uint32_t>(derivation.steps_done()), births_before);
 }
 
 void GrowingPlant::note_derived() {
@@ -53,6 +69,7 @@ void GrowingPlant::note_received() {
 void GrowingPlant::give_away() {
     is_here = false;
     memory = {};
+    born = 0;
     hold(std::make_shared<const ModuleString>(), std::make_shared<const Interpretation>());
     note_received();
 }

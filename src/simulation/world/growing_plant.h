@@ -7,6 +7,7 @@
 #include "espalier/timeline/frame.h"
 #include "espalier/turtle/interpretation.h"
 
+#include "lsystem/model/birth_numbers.h"
 #include "simulation/world/insertion.h"
 #include "simulation/world/plant_memory.h"
 #include "simulation/world/reusable.h"
@@ -39,6 +40,10 @@ public:
     void set_length(int steps);
     /// After its string and its derivation were restored from a checkpoint.
     void note_derived();
+    /// Notes how many modules were born in this step.
+    void count_births();
+    /// Numbers those in its string, behind the `births_before` of other plants and steps.
+    void number_births();
 
     // Hints that a stage will soon come to this plant: of itself, then of its values, then of the columns in them.
     void prefetch_itself() const;
@@ -64,6 +69,7 @@ public:
     alignas(64) PlantMemory memory;
     // As derivation leaves them: to look them up elsewhere would cost much of a small plant's step.
     std::size_t modules = 0;
+    std::size_t born = 0;  ///< in this step; 0: they are not counted, or have their numbers already
     int length = 0;
     bool stopped = false;
     bool is_here = true;  ///< false: another rank holds it, and what it sent of the plant is all there is
@@ -72,6 +78,8 @@ public:
     std::size_t modules_before = 0;
     Reusable<ModuleString> string;
     Reusable<Interpretation> interpretation;
+    std::uint64_t births_before = 0;                ///< modules of the run that were born before those of this step
+    std::unique_ptr<lsystem::KeptNumbers> numbers;  ///< of a plant that grows anew in every step; else null
     std::uint32_t number;
     /// For light and recorders: the interpretation as the geometry stages leave it.
     const Interpretation& drawn() const { return *shown(); }

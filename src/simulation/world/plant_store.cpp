@@ -185,6 +185,7 @@ void PlantStore::fetch(GrowingPlant& plant, bool drawn) {
         shown->geometry.shapes = plant.interpretation->geometry.shapes;
     }
     plant.hold(std::move(string), std::move(shown));
+    plant.number_births();
 }
 
 }  // namespace espalier::simulation

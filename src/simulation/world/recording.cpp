@@ -144,6 +144,8 @@ Frame World::frame_of_plants() const {
 
 Frame World::State::frame_of(std::span<const GrowingPlant> some) const {
     Frame frame{step, time(), {}, &environment->fields(), is_at_end(), environment.get()};
+    frame.dt = scene.dt;
+    frame.time_unit = scene.time_unit;
     frame.plants.reserve(some.size());
     for (const GrowingPlant& plant : some) {
         frame.plants.push_back(

@@ -23,7 +23,7 @@
 namespace espalier::simulation {
 namespace {
 
-constexpr std::uint64_t checkpoint_signature = 0x35'646c'726f'57;  // "World5"
+constexpr std::uint64_t checkpoint_signature = 0x36'646c'726f'57;  // "World6"
 
 /// Adds the seconds of its life.
 class Stopwatch {
@@ -57,6 +57,7 @@ void World::step() {
 void World::State::grow(Stage stage) {
     if (!store) {
         rewrite(plants, stage);
+        place_births();
         return interpret(plants);
     }
     is_drawn = reads_plants(ends_at_will || is_at_end());
@@ -68,7 +69,20 @@ void World::State::grow(Stage stage) {
         rest(some);
         store->gather_queries(part);
     }
+    place_births();
     store->turn();
+}
+
+// Step by step, plant by plant: so numbers are the same whoever holds the plants. Those that wait on disk get theirs
+// when they are fetched.
+void World::State::place_births() {
+    if (!is_seen || (spread && !what_is_recorded().anything)) return;
+    std::vector<double> born;
+    if (spread) born = spread->of_each(plants, [](const GrowingPlant& plant) { return double(plant.born); });
+    for (GrowingPlant& plant : plants) {
+        plant.births_before = births;
+        births += spread ? static_cast<std::uint64_t>(born[plant.number]) : plant.born;
+    }
 }
 
 void World::State::begin_step() {
@@ -112,6 +126,7 @@ void World::State::rewrite(std::span<GrowingPlant> some, Stage stage) {
                             if (!plant.is_here || !memory.has_room()) return;
                             memory.limit_strings(plant);
                             (plant.*stage)(is_plentiful ? &spare : nullptr);
+                            if (is_seen) plant.count_births();
                             memory.count_strings(plant);
                         });
         memory.check_strings(plants, step);
@@ -151,6 +166,7 @@ void World::State::interpret(std::span<GrowingPlant> some) {
                         {&GrowingPlant::prefetch_values, &GrowingPlant::prefetch_for_interpretation},
                         [&](GrowingPlant& plant, ModuleString&) {
                             if (!plant.is_here) return;
+                            if (!store) plant.number_births();
                             plant.interpret(fields, time());
                             memory.count_drawn(plant, step, plants.size() > 1);
                         });
@@ -307,16 +323,19 @@ DerivedStep World::derived() const {
         plant.derivation.save(memory);
         derived.plants.push_back({plant.string.share(), std::move(memory).str()});
     }
+    derived.births = state_->births;
     return derived;
 }
 
 void World::take(const DerivedStep& derived) {
     state_->step = derived.step;
+    state_->births = derived.births;
     for (GrowingPlant& plant : state_->plants) {
         const DerivedStep::OfPlant& from = derived.plants.at(plant.number);
         std::istringstream memory(from.memory);
         plant.derivation.restore(memory);
         plant.string.hold(from.string);
+        plant.born = 0;
         plant.note_derived();
         state_->memory.count_strings(plant);
     }
@@ -350,6 +369,7 @@ void World::State::gather_states(const std::filesystem::path& folder) {
 void World::save(std::ostream& out) const {
     put(out, checkpoint_signature);
     put(out, static_cast<std::int32_t>(state_->step));
+    put(out, state_->births);
     put(out, static_cast<std::uint64_t>(size()));
     for (GrowingPlant& plant : state_->plants) {
         if (state_->store) state_->store->show(plant);
@@ -375,6 +395,7 @@ void World::restore(std::istream& in) {
 void World::State::restore(std::istream& in) {
     if (get<std::uint64_t>(in) != checkpoint_signature) throw RunError("this is not the checkpoint of a world");
     const auto saved = get<std::int32_t>(in);
+    births = get<std::uint64_t>(in);
     if (get<std::uint64_t>(in) != plants.size()) throw RunError("the checkpoint is of another scene");
     for (GrowingPlant& plant : plants) {
         get_state(in, plant, memory.bytes());

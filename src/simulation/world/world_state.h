@@ -83,6 +83,7 @@ struct World::State {
     bool is_at_end() const { return stopped || step >= last_step(); }
     int last_step() const { return scene.last_frame.value_or(longest); }
     void note_ends();
+    void place_births();
     void find_fields_read();
     void take_fields();
     void store_answers();
@@ -112,6 +113,7 @@ struct World::State {
     bool is_saved = false;                            ///< before the step, for a checkpoint: plants may move
     double busy = 0;                                  ///< seconds of work on the plants since they might have moved
     std::uint64_t sent_messages = 0, sent_bytes = 0;  ///< before the step
+    std::uint64_t births = 0;                         ///< modules that were born so far, on all ranks
     int step = 0;
     int longest = 0;  ///< derivation length of the plants
     bool stopped = false;

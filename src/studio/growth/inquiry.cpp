@@ -132,9 +132,10 @@ private:
 
     std::vector<std::size_t> siblings(const PlantString& now) const {
         std::vector<std::size_t> modules;
-        const std::uint32_t row = now.string.births[module_].siblings;
+        const auto born = [&](std::size_t module) { return now.string.siblings[now.string.births[module].siblings]; };
+        const Siblings own = born(module_);
         for (std::size_t i = 0; i < now.string.size(); ++i) {
-            if (i != module_ && now.string.births[i].siblings == row) modules.push_back(first_ + i);
+            if (i != module_ && born(i).is_same_as(own)) modules.push_back(first_ + i);
         }
         return modules;
     }

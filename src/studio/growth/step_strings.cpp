@@ -3,7 +3,7 @@
 namespace espalier::studio {
 
 std::shared_ptr<const StepStrings> StepStrings::filed(const std::shared_ptr<Spool>& spool) const {
-    DerivedStep empty{derived_.step, std::vector<DerivedStep::OfPlant>(plants())};
+    DerivedStep empty{derived_.step, std::vector<DerivedStep::OfPlant>(plants()), derived_.births};
     auto filed = std::make_shared<StepStrings>(std::move(empty), origin_);
     filed->spool_ = spool;
     for (const DerivedStep::OfPlant& plant : derived_.plants) {
@@ -29,7 +29,7 @@ ModuleString StepStrings::string(std::size_t plant) const {
 
 DerivedStep StepStrings::derived() const {
     if (!spool_) return derived_;
-    DerivedStep derived{derived_.step, {}};
+    DerivedStep derived{derived_.step, {}, derived_.births};
     for (std::size_t i = 0; i < filed_.size(); ++i) {
         derived.plants.push_back({std::make_shared<const ModuleString>(string(i)), spool_->text(filed_[i].memory)});
     }

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <lz4.h>
 #include <vector>
+#include <zlib.h>
 
 namespace espalier::timeline {
 namespace {
@@ -17,15 +18,19 @@ constexpr std::size_t block_bytes = std::size_t{1} << 18;
 /// The blocks of an array one after the other, compressed.
 class Blocks {
 public:
-    explicit Blocks(const DataArray& array)
-        : array_(array), tuples_(std::max<std::size_t>(1, block_bytes / std::max<std::size_t>(1, array.tuple_bytes))) {
+    Blocks(const DataArray& array, Compression compression)
+        : array_(array),
+          compression_(compression),
+          tuples_(std::max<std::size_t>(1, block_bytes / std::max<std::size_t>(1, array.tuple_bytes))) {
         if (!array.ends.empty()) expanded_.resize(std::min(full(), array.bytes()));
     }
 
     std::size_t full() const { return tuples_ * array_.tuple_bytes; }
     std::size_t count() const { return (array_.tuples + tuples_ - 1) / tuples_; }
     std::size_t most_bytes() const {
-        return static_cast<std::size_t>(LZ4_compressBound(static_cast<int>(std::min(full(), array_.bytes()))));
+        const std::size_t bytes = std::min(full(), array_.bytes());
+        if (compression_ == Compression::zlib) return compressBound(bytes);
+        return static_cast<std::size_t>(LZ4_compressBound(static_cast<int>(bytes)));
     }
 
     /// Returns how many bytes it has written.
@@ -34,15 +39,26 @@ public:
         done_ = last;
         const char* bytes = static_cast<const char*>(array_.values) + first * width;
         if (!array_.ends.empty()) bytes = expand_runs(first, last);
-        return static_cast<std::size_t>(LZ4_compress_fast(bytes, reinterpret_cast<char*>(out),
-                                                          static_cast<int>((last - first) * width),
-                                                          static_cast<int>(most_bytes()), acceleration));
+        return compress(bytes, (last - first) * width, out);
     }
 
 private:
     /// At this value blocks of coordinates and identities are compressed about as fast as they are copied, and hardly
     /// worse than at 1.
     static constexpr int acceleration = 8;
+    /// Higher levels take twice the time for 2 % of the bytes.
+    static constexpr int level = 1;
+
+    std::size_t compress(const char* bytes, std::size_t count, unsigned char* out) const {
+        if (compression_ == Compression::lz4) {
+            return static_cast<std::size_t>(LZ4_compress_fast(bytes, reinterpret_cast<char*>(out),
+                                                              static_cast<int>(count), static_cast<int>(most_bytes()),
+                                                              acceleration));
+        }
+        uLongf size = most_bytes();
+        if (compress2(out, &size, reinterpret_cast<const Bytef*>(bytes), count, level) != Z_OK) throw std::bad_alloc();
+        return size;
+    }
 
     const char* expand_runs(std::size_t first, std::size_t last) {
         const std::size_t width = array_.tuple_bytes;
@@ -66,6 +82,7 @@ private:
     }
 
     const DataArray& array_;
+    const Compression compression_;
     std::size_t tuples_;              ///< in a block
     std::size_t done_ = 0, run_ = 0;  ///< tuples, runs
     Column<char> expanded_;           ///< a block of an array of runs
@@ -73,8 +90,8 @@ private:
 
 }  // namespace
 
-void encode(const DataArray& array, Column<char>& text) {
-    Blocks blocks(array);
+void encode(const DataArray& array, Compression compression, Column<char>& text) {
+    Blocks blocks(array, compression);
     const std::size_t count = blocks.count();
     // What VTK calls a partial block is a last one that is not full; 0 where there is none.
     std::vector<std::uint64_t> header(3 + count);

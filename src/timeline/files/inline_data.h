@@ -1,7 +1,8 @@
-// Arrays as VTK's XML files hold them inline: blocks compressed by LZ4, written in base64.
+// Arrays as VTK's XML files hold them inline: compressed blocks, written in base64.
 #pragma once
 
 #include "espalier/base/column.h"
+#include "espalier/timeline/compression.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -45,6 +46,6 @@ DataArray data_array(std::string name, std::span<const T> values, int components
 }
 
 /// Writes the array's data as VTK's readers expect them: the blocks' sizes, then the blocks.
-void encode(const DataArray& array, Column<char>& text);
+void encode(const DataArray& array, Compression compression, Column<char>& text);
 
 }  // namespace espalier::timeline

@@ -17,11 +17,11 @@ std::string numbers(const glm::dvec3& vector) {
 
 }  // namespace
 
-void write_vti(const std::filesystem::path& path, const Field& field, double time, int step) {
+void write_vti(const std::filesystem::path& path, const Field& field, double time, int step, Compression compression) {
     const DenseField dense = grid_operations().dense(field);
     const glm::ivec3& size = dense.size;
     const std::string extent = fmt::format("0 {} 0 {} 0 {}", size.x - 1, size.y - 1, size.z - 1);
-    VtkFile file;
+    VtkFile file(compression);
     file.begin("ImageData");
     file.open("ImageData", fmt::format(R"(WholeExtent="{}" Origin="{}" Spacing="{}" Direction="1 0 0 0 1 0 0 0 1")",
                                        extent, numbers(dense.origin), numbers(dense.spacing)));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/geometry/field.h"
+#include "espalier/timeline/compression.h"
 
 #include <filesystem>
 
@@ -9,6 +10,7 @@ namespace espalier::timeline {
 
 /// The field over its box, with a value at every voxel's centre. The file appears complete or not at all. Throws
 /// RunError if the box has more than `most_dense_voxels`.
-void write_vti(const std::filesystem::path& path, const Field& field, double time, int step);
+void write_vti(const std::filesystem::path& path, const Field& field, double time, int step,
+               Compression compression = Compression::lz4);
 
 }  // namespace espalier::timeline

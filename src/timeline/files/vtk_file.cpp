@@ -41,7 +41,7 @@ void VtkFile::begin(std::string_view type) {
     // Debian 12 as updated, 2.6) defers its parsing; Debian's ParaView 5.11 is one of them.
     open("VTKFile", fmt::format(R"(type="{}" version="1.0" byte_order="{}" header_type="UInt64" compressor="{}")", type,
                                 std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian",
-                                "vtkLZ4DataCompressor"));
+                                compression_ == Compression::zlib ? "vtkZLibDataCompressor" : "vtkLZ4DataCompressor"));
 }
 
 void VtkFile::open(std::string_view element, std::string_view attributes) {
@@ -110,7 +110,7 @@ void VtkFile::encode_all() {
             Part& part = parts_[i];
             if (part.encoded) continue;
             part.text.clear();
-            encode(part.array, part.text);
+            encode(part.array, compression_, part.text);
             part.encoded = true;
         }
     };
@@ -145,7 +145,7 @@ std::uint64_t VtkFile::digest() {
     Column<char> text;
     for (std::size_t i = 0; i < count_; ++i) {
         text.clear();
-        encode(parts_[i].array, text);
+        encode(parts_[i].array, compression_, text);
         sum = espalier::digest(view(text), espalier::digest(parts_[i].markup, sum));
     }
     return espalier::digest(markup_, sum);

@@ -17,6 +17,8 @@ namespace espalier::timeline {
 /// times as long.
 class VtkFile {
 public:
+    explicit VtkFile(Compression compression = Compression::lz4) : compression_(compression) {}
+
     /// Forgets the file before. `type` is VTK's name of the kind of data set, "PolyData".
     void begin(std::string_view type);
     /// The same where arrays say whether they have changed since that file: those that have not keep their text.
@@ -57,6 +59,7 @@ private:
     /// Returns the pieces of the whole file; valid until it is begun anew.
     std::vector<std::string_view> pieces();
 
+    Compression compression_;
     std::vector<std::string> open_;
     std::string markup_;      ///< since the last array
     std::deque<Part> parts_;  ///< the first `count_` are of this file

@@ -26,7 +26,7 @@ void LastFrame::record(const Frame& frame) {
 // whole.
 RecordedMemory LastFrame::memory(int /*step*/, const ModuleString& /*string*/,
                                  const Interpretation& interpretation) const {
-    constexpr std::size_t places = 36, attributes = 36, of_run = 64;
+    constexpr std::size_t places = 36, attributes = 36, of_run = 80;
     const MeshSize size = columns_->foreseen(interpretation);
     const std::size_t parameters = columns_->chosen() * sizeof(double);
     return {size.points * (2 * places + attributes + parameters) + 8 * size.corners + size.cells * (8 + attributes) +

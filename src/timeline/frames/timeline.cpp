@@ -108,6 +108,11 @@ FrameSelection frames_of(const Settings& table) {
     return frames;
 }
 
+Compression compression_of(const Settings& table) {
+    const std::string name = table.choice_or("compression", "lz4", {"lz4", "zlib"});
+    return name == "zlib" ? Compression::zlib : Compression::lz4;
+}
+
 using Recorders = std::vector<std::unique_ptr<Recorder>>;
 
 Recorders recorders_of(Settings& table, const RecorderContext& context) {
@@ -143,7 +148,7 @@ Timeline::Timeline(const fs::path& folder, Settings table, int last_step, const 
 void Timeline::make_recorders(Settings& table) {
     frames_ = frames_of(table);
     next_ = frames_.after(-1);
-    recorders_ = recorders_of(table, {folder_, last_step_});
+    recorders_ = recorders_of(table, {folder_, last_step_, compression_of(table)});
     table.reject_unread();
     std::vector<std::string> organs;
     for (const auto& recorder : recorders_) {
@@ -264,7 +269,7 @@ void Timeline::write_run(const std::string& json) const {
 }
 
 std::unique_ptr<Recorder> recorder_of_pieces(const fs::path& folder, Settings table, int last_step) {
-    Recorders recorders = recorders_of(table, {folder, last_step});
+    Recorders recorders = recorders_of(table, {folder, last_step, compression_of(table)});
     std::erase_if(recorders, [](const auto& recorder) { return !recorder->reads_plants(); });
     const bool is_alone = recorders.size() == 1 && recorders.front()->points_per_file() > 0;
     return is_alone ? std::move(recorders.front()) : nullptr;

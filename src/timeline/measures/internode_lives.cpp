@@ -99,6 +99,7 @@ void InternodeLives::record(int step, const PlantFrame& plant, std::span<const s
         const std::uint32_t at = is_new ? begin_life(identity, part) : life_of(identity, part, expected);
         lives_[at] = {identity,
                       string.parent(module),
+                      string.birth_number(module),
                       part,
                       static_cast<std::int32_t>(string.step_of_birth(module)),
                       0,

@@ -14,9 +14,10 @@ namespace espalier::timeline {
 /// itself.
 struct InternodeLife {
     Identity identity, parent;
-    std::uint32_t part;  ///< a module may draw several internodes; this is its part-th
-    std::int32_t birth;  ///< birth of the module
-    std::int32_t death;  ///< first step without it; meaningful once it is dead
+    std::uint64_t organ;  ///< number of the module, in the order of births
+    std::uint32_t part;   ///< a module may draw several internodes; this is its part-th
+    std::int32_t birth;   ///< birth of the module
+    std::int32_t death;   ///< first step without it; meaningful once it is dead
     bool alive;
     std::uint16_t symbol, order, colour;
     glm::vec3 base, tip;  ///< as last seen

@@ -95,6 +95,7 @@ AttributeArrays::AttributeArrays(const Frame& frame, SymbolNumbers& symbols, std
 
 void AttributeArrays::add_attributes(OwnerArrays& arrays, const Owners& owners) const {
     const auto identity = arrays.append<std::uint64_t>("identity", owners);
+    const auto organ = arrays.append<std::uint64_t>("organ", owners);
     const auto parent = arrays.append<std::uint64_t>("parent", owners);
     const auto number = arrays.append<std::uint32_t>("plant", owners);
     const auto symbol = arrays.append<std::uint16_t>("symbol", owners);
@@ -106,6 +107,7 @@ void AttributeArrays::add_attributes(OwnerArrays& arrays, const Owners& owners) 
         const Plant& plant = plants_[owner.plant];
         const ModuleString& string = *plant.frame->string;
         identity.put(i, plant.lineage ? string.identity(owner.module) : 0);
+        organ.put(i, plant.lineage ? string.birth_number(owner.module) : 0);
         parent.put(i, plant.lineage ? string.parent(owner.module) : 0);
         number.put(i, plant.frame->plant);
         symbol.put(i, (*plant.symbols)[string.letters[owner.module]]);

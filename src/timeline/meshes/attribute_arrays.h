@@ -85,7 +85,7 @@ class AttributeArrays {
 public:
     AttributeArrays(const Frame& frame, SymbolNumbers& symbols, std::span<const ChosenParameter> chosen);
 
-    /// identity, parent, plant, symbol, birth, order, colour, kind; zero where a string keeps no lineage.
+    /// identity, organ, parent, plant, symbol, birth, order, colour, kind; zero where a string keeps no lineage.
     void add_attributes(OwnerArrays& arrays, const Owners& owners) const;
     /// texture (index into `texture_files`) and back_colour. Files are named from `folder`, so that their names are the
     /// same wherever the folders lie; by their whole paths if there is none.

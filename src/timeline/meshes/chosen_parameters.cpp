@@ -14,8 +14,8 @@
 namespace espalier::timeline {
 namespace {
 
-constexpr std::array own_names{"identity", "parent", "plant",  "symbol", "birth",       "order",
-                               "colour",   "kind",   "radius", "pixels", "symbol_names"};
+constexpr std::array own_names{"identity", "organ",  "parent", "plant",  "symbol", "birth",
+                               "order",    "colour", "kind",   "radius", "pixels", "symbol_names"};
 
 // Only symbols with parameters: the names a user may have meant.
 std::vector<std::string> symbols_of(std::span<const Model* const> models) {

@@ -50,7 +50,8 @@ private:
 
 class BackgroundScene final : public Recorder {
 public:
-    explicit BackgroundScene(const RecorderContext& context) : path_(context.folder / "background.vtp") {}
+    explicit BackgroundScene(const RecorderContext& context)
+        : path_(context.folder / "background.vtp"), compression_(context.compression) {}
 
     bool reads_plants() const override { return false; }
 
@@ -71,7 +72,7 @@ public:
 
 private:
     void write(const BackgroundArrays& arrays) {
-        VtkFile file;
+        VtkFile file(compression_);
         file.begin("PolyData");
         file.open("PolyData");
         file.open("Piece", fmt::format(R"(NumberOfPoints="{}" NumberOfPolys="{}")", arrays.points.size() / 3,
@@ -91,6 +92,7 @@ private:
     }
 
     std::filesystem::path path_;
+    Compression compression_;
     std::set<const Background*> seen_;
     BackgroundArrays arrays_;
     bool is_written_ = false;

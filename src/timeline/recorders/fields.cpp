@@ -23,6 +23,7 @@ class FieldRecorder final : public Recorder {
 public:
     FieldRecorder(const Settings& settings, const RecorderContext& context)
         : folder_(context.folder),
+          compression_(context.compression),
           collection_(context.folder / "fields.pvd"),
           names_(settings.texts_or("fields", {})),
           place_(settings.place("fields")) {
@@ -130,12 +131,13 @@ private:
     std::string write(const Field& field, const Frame& frame) const {
         const std::string name = fmt::format("fields/{}/{:04}", field.name, frame.step);
         make_folder_below(folder_, std::filesystem::path("fields") / field.name);
-        if (vti_) write_vti(folder_ / (name + ".vti"), field, frame.time, frame.step);
+        if (vti_) write_vti(folder_ / (name + ".vti"), field, frame.time, frame.step, compression_);
         if (vdb_) grid_operations().write_vdb(folder_ / (name + ".vdb"), field);
         return name;
     }
 
     std::filesystem::path folder_;
+    Compression compression_;
     CollectionFile collection_;
     std::vector<std::string> names_;
     Place place_;

@@ -2,9 +2,10 @@
 // A threshold birth <= t < death shows the plant as it stood at step t.
 //
 // Parameters: lifespans (true or false, default true).
-// Each internode is a line of two points, where it was last seen. Cell arrays: identity, parent, plant, symbol (index
-// into symbol_names), birth (step its module was born), death (first step without it; last step + 1 if it lives),
-// alive (1 or 0), order, colour. Point array: radius.
+// Each internode is a line of two points, where it was last seen. Cell arrays: identity, organ (number of the module in
+// the order of births), parent, plant, symbol (index into symbol_names), birth (step its module was born), death (first
+// step without it; last step + 1 if it lives), both as times too, alive (1 or 0), order, colour. Point array: radius.
+// Field data: units.
 #include "espalier/timeline/recorder.h"
 
 #include "base/bytes.h"
@@ -23,7 +24,8 @@ namespace {
 
 class Lifespans final : public Recorder {
 public:
-    explicit Lifespans(const RecorderContext& context) : path_(context.folder / "lifespans.vtp") {}
+    explicit Lifespans(const RecorderContext& context)
+        : path_(context.folder / "lifespans.vtp"), file_(context.compression) {}
 
     bool sees_every_step() const override { return true; }
 
@@ -33,6 +35,8 @@ public:
         }
         last_step_ = frame.step;
         time_ = frame.time;
+        dt_ = frame.dt;
+        time_unit_ = frame.time_unit;
     }
 
     void finish() override {
@@ -43,6 +47,8 @@ public:
         file_.open("FieldData");
         file_.add_time(time_, last_step_);
         file_.add_texts("symbol_names", symbols_.names());
+        file_.add_texts("units", {"birth: step", "death: step", "birth_time: " + time_unit_,
+                                  "death_time: " + time_unit_, "radius: m", "points: m"});
         file_.close();
         file_.open("Piece", fmt::format(R"(NumberOfPoints="{}" NumberOfLines="{}")", radii_.size(), offsets_.size()));
         file_.open("PointData");
@@ -50,11 +56,14 @@ public:
         file_.close();
         file_.open("CellData");
         add_array("identity", [](const Row& row) { return row.life->identity; });
+        add_array("organ", [](const Row& row) { return row.life->organ; });
         add_array("parent", [](const Row& row) { return row.life->parent; });
         add_array("plant", [](const Row& row) { return row.plant; });
         add_array("symbol", [](const Row& row) { return row.life->symbol; });
         add_array("birth", [](const Row& row) { return row.life->birth; });
-        add_array("death", [this](const Row& row) { return row.life->alive ? last_step_ + 1 : row.life->death; });
+        add_array("death", [this](const Row& row) { return death_of(*row.life); });
+        add_array("birth_time", [this](const Row& row) { return row.life->birth * dt_; });
+        add_array("death_time", [this](const Row& row) { return death_of(*row.life) * dt_; });
         add_array("alive", [](const Row& row) { return static_cast<std::uint8_t>(row.life->alive); });
         add_array("order", [](const Row& row) { return row.life->order; });
         add_array("colour", [](const Row& row) { return row.life->colour; });
@@ -68,7 +77,7 @@ public:
 
     // Measured. At the end lives become rows and arrays, and these become texts.
     RecordedMemory memory(int step, const ModuleString& string, const Interpretation& interpretation) const override {
-        constexpr std::size_t of_life = 130, at_the_end = 190;
+        constexpr std::size_t of_life = 140, at_the_end = 260;
         const std::size_t born = internodes_born(step, string, interpretation.geometry.internodes);
         return {0, born * of_life, born * at_the_end};
     }
@@ -76,6 +85,8 @@ public:
     void save(std::ostream& out) const override {
         put(out, last_step_);
         put(out, time_);
+        put(out, dt_);
+        put_text(out, time_unit_);
         put(out, static_cast<std::uint64_t>(plants_.size()));
         for (const auto& [plant, lives] : plants_) {
             put(out, plant);
@@ -86,6 +97,8 @@ public:
     void restore(std::istream& in) override {
         last_step_ = get<int>(in);
         time_ = get<double>(in);
+        dt_ = get<double>(in);
+        time_unit_ = get_text(in, 1 << 16);
         for (auto plants = get<std::uint64_t>(in); plants > 0; --plants) {
             const auto plant = get<std::uint32_t>(in);
             plants_[plant].restore(in);
@@ -97,6 +110,8 @@ private:
         std::uint32_t plant;
         const InternodeLife* life;
     };
+
+    int death_of(const InternodeLife& life) const { return life.alive ? last_step_ + 1 : life.death; }
 
     void gather() {
         std::size_t count = 0;
@@ -143,7 +158,8 @@ private:
     std::deque<Column<std::byte>> columns_;  ///< arrays of the cells, until the file is written
     VtkFile file_;
     int last_step_ = 0;
-    double time_ = 0;
+    double time_ = 0, dt_ = 1;
+    std::string time_unit_;
 };
 
 const Registered<RecorderType> entry{

@@ -4,11 +4,11 @@
 // Parameters: skeleton (true or false, default true); points_per_file (default 2^22): a frame of more is cut between
 // plants, into plants/NNNN.vtp, plants/NNNN-1.vtp and so on; parameters (table of array name = "SYMBOL.NUMBER"): module
 // parameters that become point arrays; a query's ("?E.1") also makes its queries vertices.
-// Cell and point arrays: identity, parent, plant, symbol (index into symbol_names), birth, order, colour, kind
-// (0 query, 1 axis, 2 polygon, 3 organ, 4 generalized cylinder, 5 patch, 6 label), and rgb where a plant has a palette;
-// cell arrays besides: texture (index into texture_files) and back_colour; point arrays besides: Normals, TCoords,
-// radius, the chosen parameters and quantities of organs, and pixels where a view file gives widths in pixels. Field
-// data: the texts of the labels, in the order of their vertices; organ_units.
+// Cell and point arrays: identity, organ (its number in the order of births), parent, plant, symbol (index into
+// symbol_names), birth, order, colour, kind (0 query, 1 axis, 2 polygon, 3 organ, 4 generalized cylinder, 5 patch, 6
+// label), and rgb where a plant has a palette; cell arrays besides: texture (index into texture_files) and back_colour;
+// point arrays besides: Normals, TCoords, radius, the chosen parameters and quantities of organs, and pixels where a
+// view file gives widths in pixels. Field data: the texts of the labels, in the order of their vertices; organ_units.
 #include "espalier/timeline/recorder.h"
 
 #include "base/bytes.h"
@@ -33,7 +33,7 @@ namespace {
 // up to 28 for the attributes of a run. An array that grows beyond its memory is there twice for a moment.
 std::size_t bytes_to_write(const MeshSize& size, std::size_t parameters) {
     constexpr std::size_t of_owner = sizeof(Owner) + sizeof(std::uint32_t);
-    constexpr std::size_t attributes = 38, texts_of_attributes = 28;
+    constexpr std::size_t attributes = 46, texts_of_attributes = 36;
     constexpr std::size_t of_point = 36 + 28, of_corner = 4 + 6, of_cell = 4 + 6;
     const std::size_t of_point_run =
         of_owner + sizeof(std::uint32_t) + attributes + texts_of_attributes + parameters * (8 + 11);
@@ -50,7 +50,9 @@ public:
           collection_(context.folder / "plants.pvd"),
           most_points_(
               static_cast<std::size_t>(settings.integer_or("points_per_file", 1 << 22, Range::between(1, 1e9)))),
-          columns_(std::filesystem::path(settings.place().file).parent_path(), settings) {}
+          columns_(std::filesystem::path(settings.place().file).parent_path(), settings),
+          compression_(context.compression),
+          file_(compression_) {}
 
     std::size_t points_per_file() const override { return most_points_; }
     std::vector<std::string> organs() const override { return columns_.organs(); }
@@ -74,7 +76,7 @@ public:
 
     void finish() override {
         columns_.release();
-        file_ = {};
+        file_ = VtkFile(compression_);
     }
 
     RecordedMemory memory(int, const ModuleString& string, const Interpretation& interpretation) const override {
@@ -110,7 +112,7 @@ private:
     }
 
     std::uint64_t digest() const {
-        VtkFile file;
+        VtkFile file(compression_);
         file.begin("PolyData");
         columns_.put_into(file, 0, 0);
         return file.digest();
@@ -123,7 +125,10 @@ private:
     }
 
     static Frame part_of(const Frame& frame, std::vector<PlantFrame> plants) {
-        return {frame.step, frame.time, std::move(plants), frame.fields, frame.is_last, frame.environment};
+        Frame part{frame.step, frame.time, std::move(plants), frame.fields, frame.is_last, frame.environment};
+        part.dt = frame.dt;
+        part.time_unit = frame.time_unit;
+        return part;
     }
 
     static std::string file_of(int step, int piece) {
@@ -187,6 +192,7 @@ private:
     FrameCut cut_{most_points_};
     std::vector<PlantFrame> waiting_;  ///< of the piece to come
     int piece_ = 0;                    ///< pieces of the frame so far
+    Compression compression_;
     VtkFile file_;
 };
 

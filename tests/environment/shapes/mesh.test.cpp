@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -129,6 +130,108 @@ TEST_CASE("a bad mesh is refused with its name and what is wrong", "[shape]") {
     CHECK_THAT(refusal_of(folder.path() / "good.obj", "voxel = 1e-6"), Contains("GB"));
     CHECK_THAT(refusal_of(folder.path() / "good.obj", "voxel = 10"), Contains("thinner"));
     CHECK_THAT(refusal_of(folder.path() / "good.obj", "voxel = 0"), Contains("'voxel' must be greater than 0"));
+}
+
+namespace {
+
+/// Largest difference of two shapes in distance and normal, at points all around.
+double difference(const Shape& one, const Shape& other) {
+    double largest = 0;
+    for (const glm::dvec3& point : random_points(2000, 2)) {
+        const Shape::Sample a = one.sample(point), b = other.sample(point);
+        largest = std::max({largest, std::abs(a.distance - b.distance), glm::length(a.normal - b.normal)});
+    }
+    return largest;
+}
+
+std::string text_of(const TestMesh& mesh, const char* end_of_line = "\n") {
+    std::string text;
+    for (const glm::dvec3& p : mesh.points) text += fmt::format("v {:.9f} {:.9f} {:.9f}{}", p.x, p.y, p.z, end_of_line);
+    for (const auto& polygon : mesh.polygons) {
+        text += "f";
+        for (const std::uint32_t corner : polygon) text += fmt::format(" {}", corner + 1);
+        text += end_of_line;
+    }
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("a mesh whose copies of a vertex differ by a rounding is closed", "[shape]") {
+    const TemporaryFolder folder;
+    const TestMesh sphere = unit_sphere(24);
+    TestMesh apart;  // every triangle has corners of its own
+    for (const auto& polygon : sphere.polygons) {
+        apart.polygons.emplace_back();
+        for (const std::uint32_t corner : polygon) {
+            const double error = 1e-7 * static_cast<double>(apart.points.size() % 3) - 1e-7;
+            apart.polygons.back().push_back(static_cast<std::uint32_t>(apart.points.size()));
+            apart.points.push_back(sphere.points[corner] + glm::dvec3(error, -error, error));
+        }
+    }
+    const auto whole = shape_of(mesh_table(folder.write("whole.obj", text_of(sphere)), 0.05));
+    const auto welded = shape_of(mesh_table(folder.write("apart.obj", text_of(apart)), 0.05));
+    CHECK(difference(*whole, *welded) < 1e-4);
+    for (glm::dvec3& point : apart.points) point += 1e-3 * glm::sin(1e6 * point);
+    CHECK_THAT(refusal_of(folder.write("torn.obj", text_of(apart))), Contains("not closed"));
+}
+
+TEST_CASE("triangles that face either way make the mesh that they make facing outward", "[shape]") {
+    const TemporaryFolder folder;
+    const TestMesh sphere = unit_sphere(24);
+    TestMesh mixed = sphere, inward = sphere;
+    for (std::size_t i = 0; i < sphere.polygons.size(); ++i) {
+        if (i % 3 != 0) std::reverse(mixed.polygons[i].begin(), mixed.polygons[i].end());
+        std::reverse(inward.polygons[i].begin(), inward.polygons[i].end());
+    }
+    const auto outward = shape_of(mesh_table(folder.write("outward.obj", text_of(sphere)), 0.05));
+    for (const auto& [name, mesh] : {std::pair{"mixed.obj", mixed}, {"inward.obj", inward}}) {
+        const auto turned = shape_of(mesh_table(folder.write(name, text_of(mesh)), 0.05));
+        CHECK(difference(*outward, *turned) < 1e-5);
+        const glm::dvec3 on_surface = sphere.points[50];  // where the triangle itself says where outside is
+        CHECK(glm::dot(turned->sample(on_surface).normal, on_surface) > 0.9);
+    }
+    // As many face in as out: their signed volumes cancel.
+    TestMesh box = triangulated(box_of_squares({-1, -1, -1}, {1, 1, 1}));
+    for (std::size_t i = 0; i < box.polygons.size(); i += 2)
+        std::reverse(box.polygons[i].begin(), box.polygons[i].end());
+    CHECK(refusal_of(folder.write("box.obj", text_of(box))) == "accepted");
+}
+
+TEST_CASE("lines of an OBJ that end in a backslash go on in the next", "[shape]") {
+    const TemporaryFolder folder;
+    const std::string broken =
+        "v 0 0 0\nv 1 0 \\\n 0\nv 0 1 0\nv 0 0 1\nf 1 3 \\\r\n2\nf 1 \\\n2 \\\n4\nf 2 3 4\nf 1 4 3\n";
+    const auto plain = shape_of(mesh_table(folder.write("plain.obj", tetrahedron), 0.02));
+    CHECK(difference(*plain, *shape_of(mesh_table(folder.write("broken.obj", broken), 0.02))) < 1e-5);
+    // The line of a mistake is counted as an editor counts it.
+    CHECK_THAT(refusal_of(folder.write("wrong.obj", "v 0 0 \\\n0\nv 1 0 0\nf 1 2 9\n")), Contains("wrong.obj:4"));
+}
+
+TEST_CASE("an STL may be written in capitals", "[shape]") {
+    const TemporaryFolder folder;
+    std::string text = "SOLID shape\n";
+    for (const auto& polygon : triangulated(box_of_squares({-1, -1, -1}, {1, 1, 1})).polygons) {
+        text += "FACET NORMAL 0 0 0\n OUTER LOOP\n";
+        for (const std::uint32_t k : polygon)
+            text += fmt::format("  VERTEX {} {} {}\n", k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
+        text += " ENDLOOP\nENDFACET\n";
+    }
+    const auto box = shape_of(mesh_table(folder.write("box.stl", text + "ENDSOLID shape\n"), 0.05));
+    CHECK(box->distance({0, 0, 2.5}) == Approx(1.5).epsilon(1e-6));
+    CHECK_THAT(refusal_of(folder.write("cut.stl", text)), Contains("endsolid"));
+}
+
+TEST_CASE("voxels and sizes of a mesh are those of the scene, which `scale` makes of the file's", "[shape]") {
+    const TemporaryFolder folder;
+    TestMesh millimetres = unit_sphere(24);
+    const std::string metres = folder.write("m.obj", text_of(millimetres)).string();
+    for (glm::dvec3& point : millimetres.points) point *= 1000.0;
+    const std::string file = folder.write("mm.obj", text_of(millimetres)).string();
+    const auto scaled = shape_of(mesh_table(file, 0.05) + "\nscale = 0.001\ntranslate = [0.25, 0, 0]\n");
+    const auto whole = shape_of(mesh_table(metres, 0.05) + "\ntranslate = [0.25, 0, 0]\n");
+    CHECK(difference(*scaled, *whole) < 1e-4);
+    CHECK_THAT(refusal_of(file, "voxel = 1e-7\nscale = 0.001"), Contains("GB") && Contains("2 m"));
 }
 
 TEST_CASE("a PLY with a point that is not a number, or cut short anywhere, is refused", "[shape]") {
