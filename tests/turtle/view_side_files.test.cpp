@@ -215,7 +215,7 @@ TEST_CASE("curves are numbered in order and measured with as many chords as thei
 
 TEST_CASE("textures keep their numbers, whether or not they are understood", "[turtle]") {
     const Folder folder;
-    folder.write("bark.png", "");
+    folder.write("bark.png", "P6 1 1 255 abc");
     const View view = folder.read(
         "texture: F bark.png L l H n E decal S R 2\ntexture: L mln F: none.rgb\ntexture: S\n"
         "texture: F bark.png Q\ntexture: F bark.png L zzz\n");
@@ -234,6 +234,19 @@ TEST_CASE("textures keep their numbers, whether or not they are understood", "[t
                    "F/a.v:3:1: a texture needs its file: F name",
                    "F/a.v:4:1: 'Q' is none of F, L, H, E, S, R; texture 4 is read up to here",
                    "F/a.v:5:1: 'zzz' is no filter (n, l, m, mnn, mln, mnl, mll); texture 5 is read up to here"});
+}
+
+TEST_CASE("a texture that will not be shown is named when the view file is read", "[turtle]") {
+    const Folder folder;
+    folder.write("notes.png", "a shopping list");
+    folder.write("own.bark", "stripes = 3\n");
+    const View view = folder.read("texture: F own.bark\ntexture: F notes.png\n");
+    REQUIRE(view.turtle.shapes->textures.size() == 2);
+    const Messages messages = folder.messages(view);
+    REQUIRE(messages.size() == 1);
+    CHECK(messages[0].starts_with(
+        "F/a.v:2:1: warning: the picture 'notes.png' of texture 2 will not be shown: it is none "
+        "of SGI's (.rgb)"));
 }
 
 TEST_CASE("a later background scene takes the place of an earlier one", "[turtle]") {

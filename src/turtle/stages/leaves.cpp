@@ -5,6 +5,7 @@
 #include "espalier/base/math.h"
 #include "espalier/turtle/geometry_stage.h"
 
+#include "base/picture_file.h"
 #include "base/text.h"
 #include "geometry/drawn/faces.h"
 #include "geometry/surface_id.h"
@@ -183,6 +184,9 @@ fs::path read_texture(const Settings& settings) {
     if (file.empty()) return file;
     if (!is_readable(file)) {
         throw UserError(settings.place("texture"), fmt::format("there is no picture {}", file.string()));
+    }
+    if (const std::string why = reason_not_to_show(file); !why.empty() && file.extension() != ".bark") {
+        throw UserError(settings.place("texture"), fmt::format("{} cannot be shown: {}", file.string(), why));
     }
     read_text(file);  // so that run.json keeps it
     return file;

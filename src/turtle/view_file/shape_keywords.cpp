@@ -1,3 +1,4 @@
+#include "base/picture_file.h"
 #include "base/text.h"
 #include "geometry/side_files/side_files.h"
 #include "geometry/surface_id.h"
@@ -271,11 +272,15 @@ private:
     // Pictures are passed on, not drawn, so one that is missing does not stop anything.
     bool read_file(const std::string& name) {
         texture_.file = reader_.find_file(name);
+        const std::size_t number = reader_.shapes.textures.size() + 1;
         std::error_code ignored;
         if (!fs::is_regular_file(texture_.file, ignored)) {
-            reader_.complain(
-                fmt::format("there is no picture '{}' for texture {}", name, reader_.shapes.textures.size() + 1),
-                Severity::warning);
+            reader_.complain(fmt::format("there is no picture '{}' for texture {}", name, number), Severity::warning);
+        } else if (texture_.file.extension() != ".bark") {
+            const std::string why = reason_not_to_show(texture_.file);
+            if (why.empty()) return true;
+            reader_.complain(fmt::format("the picture '{}' of texture {} will not be shown: {}", name, number, why),
+                             Severity::warning);
         }
         return true;
     }

@@ -332,7 +332,7 @@ TEST_CASE("crossed cards have 8 vertices and 4 triangles, a card 4 and 2, with a
 
 TEST_CASE("cards join the shapes of the view file, the same in every step", "[turtle][stages]") {
     TemporaryFolder folder;
-    folder.write("leaf.png", "a picture");
+    folder.write("leaf.png", "P6 1 1 255 abc");
     Settings table = Settings::parse_toml("stage = 'leaves'\ntexture = 'leaf.png'", "a.toml", folder.path());
     const auto stage = read_geometry_stage(table);
     const auto shapes = std::make_shared<Shapes>();
@@ -394,5 +394,8 @@ TEST_CASE("leaves refuses what is no number, size or picture", "[turtle][stages]
     CHECK_THAT(error("orientation = 'out'\nangle = 181"), Contains("'angle' must be between 0 and 180"));
     CHECK_THAT(error("colour = 70000"), Contains("'colour' must be between 0 and 65535"));
     CHECK_THAT(error("texture = 'none.png'"), Contains("stage.toml:2") && Contains("there is no picture none.png"));
+    const std::string text = ESPALIER_SOURCE_DIR "/LICENSE";
+    CHECK_THAT(error("texture = '" + text + "'"),
+               Contains("stage.toml:2") && Contains("LICENSE cannot be shown: it is"));
     CHECK_THAT(error("light = [0, 1, 0]"), Contains("'light'"));
 }
