@@ -285,6 +285,12 @@ std::string Settings::value_text(std::string_view key) const {
     }
 }
 
+std::vector<std::string> Settings::texts_below() const {
+    std::vector<std::string> texts;
+    node_->collect_texts(texts);
+    return texts;
+}
+
 void Settings::ignore() const {
     node_->mark_read_below();
 }

@@ -119,7 +119,7 @@ public:
             ->check(CLI::Range(1, 4096));
         app().add_option("--memory", memory_,
                          "memory that the growth may use, such as 4G; default: half of the machine");
-        app().add_flag("--quiet", arguments_.quiet, "print errors only");
+        app().add_flag("--quiet", arguments_.quiet, quiet_growth_help);
         add_json_flag("print the result as JSON");
         // The model is read only if a tree is asked for.
         app().preparse_callback([this](std::size_t) { add_options_of_files(); });
@@ -226,7 +226,7 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
         dress_leaves();
         const ReadLog inputs;
         const Scene scene = scene_of(arguments_);
-        if (!arguments_.quiet) print_warnings(scene.notes.diagnostics);
+        print_warnings(scene.notes.diagnostics, arguments_.quiet);
         LastFrame last;
         const RunResult result = grow(arguments_, scene, inputs, run_, &last);
         if (InterruptibleRun::interrupted()) return std::nullopt;

@@ -156,6 +156,7 @@ void World::State::interpret(std::span<GrowingPlant> some) {
                         });
         fields.forget();  // so that processes may write the next values over these
         memory.check_drawn(plants, step);
+        warn_of_ignored();
     });
 }
 
@@ -387,6 +388,7 @@ void World::State::restore(std::istream& in) {
     fields.restore(in);
     has_restored_fields = true;
     step = saved;
+    is_whole = false;
     note_ends();
     memory.check_drawn(plants, step);
 }
@@ -405,6 +407,10 @@ bool World::at_end() const {
 
 bool World::stopped() const {
     return state_->stopped;
+}
+
+void World::review_run() {
+    state_->review_run();
 }
 
 std::size_t World::modules() const {

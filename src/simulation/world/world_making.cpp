@@ -59,6 +59,7 @@ World::State::State(const Scene& described, std::size_t bytes, const std::filesy
     share_out_memory();
     make_plants(files);
     find_fields_read();
+    warn_of_unasked();
     set_lengths();
     if (!ranks) return;
     spread = std::make_unique<Spread>(*ranks, scene, *environment, fields_read);
@@ -104,6 +105,7 @@ void World::State::make_plants(const std::filesystem::path& files) {
         std::shared_ptr<const SymbolTable>& table = symbols[plant.model.get()];
         if (!table) {
             table = symbol_table(model);
+            known_models.push_back({&model, table});
             exchanges = exchanges || has_queries(model.alphabet);
         }
         const auto number = static_cast<std::uint32_t>(plants.size());
