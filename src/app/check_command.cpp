@@ -1,6 +1,5 @@
 #include "espalier/simulation/world.h"
 #include "espalier/timeline/timeline.h"
-#include "espalier/turtle/symbol.h"
 
 #include "base/json_text.h"
 #include "base/text.h"
@@ -29,15 +28,8 @@ struct CheckArguments {
     bool json = false;
 };
 
-std::vector<std::string> turtle_symbols() {
-    std::vector<std::string> names;
-    for (const auto& entry : registered<Symbol>()) names.push_back(entry.first);
-    return names;
-}
-
-void review_model(const std::shared_ptr<const CompiledModel>& compiled, Findings& findings) {
+void describe_model(const std::shared_ptr<const CompiledModel>& compiled, Findings& findings) {
     const Model& model = source_of(*compiled);
-    for (Diagnostic& warning : review(model, turtle_symbols())) findings.diagnostics.push_back(std::move(warning));
     const LSystem& system = model.main();
     findings.facts.push_back(fmt::format(
         "{}: {} production{}, {} of decomposition, {} of homomorphism; derivation length {}; {}{}{}",
@@ -81,7 +73,7 @@ void review_scene(const Scene& scene, Findings& findings) {
     timeline.require(world.environment().fields());
     std::set<const CompiledModel*> seen;
     for (const Plant& plant : scene.plants) {
-        if (seen.insert(plant.model.get()).second) review_model(plant.model, findings);
+        if (seen.insert(plant.model.get()).second) describe_model(plant.model, findings);
         if (plant.view && seen.size() == 1) review_view(*plant.view, findings);
     }
     std::string processes;

@@ -49,6 +49,7 @@ public:
           asks_(has_queries(model_.alphabet)) {}
 
     bool asks() const { return asks_; }
+    std::vector<Diagnostic> warnings() const { return warnings_of_ignored(ignored_by_turtle(*symbols_), model_); }
 
     void answer(ModuleString& string, const Derivation& derivation, bool only_turtle) {
         if (!asks_) return;
@@ -128,6 +129,7 @@ ModuleString derive_alone(const Scene& scene, const DeriveArguments& arguments) 
           },
           [&] { answers.answer(string, derivation, false); }, [&] { answers.answer(string, derivation, true); }},
          last_answers(plant, arguments.before_exchange));
+    print_warnings(answers.warnings(), arguments.quiet);
     return string;
 }
 
@@ -248,7 +250,8 @@ struct Derived {
 
 Derived derive_in_world(const Scene& scene, const DeriveArguments& arguments) {
     World world(scene, arguments.memory == 0 ? default_memory() : arguments.memory, arguments.files);
-    if (!arguments.quiet) print_warnings(world.warnings());
+    print_warnings(world.warnings(), arguments.quiet);
+    const std::size_t told = world.warnings().size();
     const std::size_t plant = number_of_plant(world, arguments.plant);
     std::optional<Explanation> explanation;
     if (!arguments.explained.empty()) explanation.emplace(scene, world.scene().plants[plant], arguments.explained);
@@ -267,6 +270,8 @@ Derived derive_in_world(const Scene& scene, const DeriveArguments& arguments) {
               world.answer_turtle_queries();
           }},
          last_answers(world.scene().plants[plant], arguments.before_exchange));
+    const std::vector<Diagnostic>& warnings = world.warnings();
+    print_warnings({warnings.begin() + static_cast<std::ptrdiff_t>(told), warnings.end()}, arguments.quiet);
     const auto& model = world.scene().plants[plant].model;
     if (!explanation) return {world.string(plant), "", model};
     return {{}, before ? explanation->text(*before, plant) : "step 0: the axiom is no step of productions\n", model};
@@ -315,7 +320,7 @@ Scene scene_of(const DeriveArguments& arguments) {
 
 int derive(const DeriveArguments& arguments) {
     const Scene scene = scene_of(arguments);
-    if (!arguments.quiet) print_warnings(scene.notes.diagnostics);
+    print_warnings(scene.notes.diagnostics, arguments.quiet);
     const bool is_alone = !is_scene(arguments.model.file) && scene.environment.processes.empty() &&
                           arguments.plant.empty() && arguments.explained.empty();
 
@@ -360,7 +365,7 @@ public:
         app().add_flag("--without-nonterminals", without_nonterminals_,
                        "delete modules that the turtle does not know and no homomorphism replaces, such as apices");
         app().add_option("--files", files_, "folder for files that the model writes; default: they are discarded");
-        app().add_flag("--quiet", quiet_, "print no warnings");
+        app().add_flag("--quiet", quiet_, quiet_growth_help);
         app().footer(
             R"(The default number of steps is the derivation length, not that of an animation. The turtle answers ?P ?H ?L ?U ?Q, with the
 settings of the view file. ?E and named queries keep their parameters, unless an environment file or a scene has a process.

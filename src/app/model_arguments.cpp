@@ -127,9 +127,10 @@ std::string taken_files(const ObjectFiles& object) {
     return fmt::format("{}", fmt::join(taken, ", "));
 }
 
-void print_warnings(const std::vector<Diagnostic>& diagnostics) {
+void print_warnings(const std::vector<Diagnostic>& diagnostics, bool quiet) {
     std::set<std::string> said;
     for (Diagnostic diagnostic : diagnostics) {
+        if (quiet && !diagnostic.insistent) continue;
         diagnostic.severity = Diagnostic::Severity::warning;
         const std::string text = to_string(diagnostic);
         // There is no output left to tell of messages that cannot be written.

@@ -36,7 +36,8 @@ void reject_side_files(const ModelArguments& arguments);
 /// "model plant.l, view plant.v, ..." of an object.
 std::string taken_files(const ObjectFiles& object);
 
-/// Prints on standard error, each once, what was noticed in the scene's files; as warnings, because the run goes on.
-void print_warnings(const std::vector<Diagnostic>& diagnostics);
+/// Prints on standard error, each once, what was noticed; as warnings, because the run goes on. `quiet`: only those
+/// that insist.
+void print_warnings(const std::vector<Diagnostic>& diagnostics, bool quiet);
 
 }  // namespace espalier::app

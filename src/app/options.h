@@ -13,6 +13,10 @@
 
 namespace espalier::app {
 
+/// Of --quiet where something grows.
+inline constexpr const char* quiet_growth_help =
+    "print errors only, and warnings of what has not the effect it reads like";
+
 /// `--option KEY=VALUE`; throws UserError if there is no '='.
 std::pair<std::string, std::string> key_and_value(const std::string& text, const std::string& option);
 

@@ -34,7 +34,7 @@ public:
             .add_option("--threads", threads_,
                         "number of threads; default: all cores. The result does not depend on it")
             ->check(CLI::Range(1, 4096));
-        app().add_flag("--quiet", quiet_, "print errors only");
+        app().add_flag("--quiet", quiet_, quiet_growth_help);
         add_json_flag("print the result as JSON");
         app().footer(
             R"(The result is the same, byte for byte, as without the interruption. Ctrl-C leaves a checkpoint. So does

@@ -187,7 +187,9 @@ RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog&
     options.ranks = ranks;
     options.patience = arguments.timeout;
     options.expired = [json = arguments.json](const std::string& why) { end_without_answer(why, json); };
-    if (!arguments.quiet) options.warn = arguments.warn;
+    if (is_first(ranks)) {
+        options.warn = [&arguments](const auto& warnings) { arguments.warn(warnings, arguments.quiet); };
+    }
     if (!arguments.quiet) options.saving = say_what_is_saved;
     ProgressReport report(arguments.quiet);
     options.progress = [&](const Progress& progress) { report(progress); };
@@ -206,7 +208,7 @@ int run_here(const RunArguments& arguments, Ranks* ranks) {
         require_end(scene);
         if (arguments.output.empty() && is_first(ranks)) unnamed.emplace(scene.name);
     });
-    if (!arguments.quiet) print_warnings(scene.notes.diagnostics);
+    if (is_first(ranks)) print_warnings(scene.notes.diagnostics, arguments.quiet);
     const fs::path output = from_first(ranks, unnamed ? unnamed->path().string() : arguments.output.string());
     const RunResult result = grow(arguments, scene, inputs, output, nullptr, ranks);
     if (is_first(ranks)) print_result(arguments, scene, output, result);
@@ -289,7 +291,7 @@ public:
             ->check(CLI::Range(0.0, 1e9));
         app().add_flag("--resume", arguments_.resume)->group("");  // what `resume` starts
         app().add_flag(child_flag, is_child_)->group("");
-        app().add_flag("--quiet", arguments_.quiet, "print errors only");
+        app().add_flag("--quiet", arguments_.quiet, quiet_growth_help);
         add_json_flag("print the result as JSON");
         app().footer(R"(Examples:
   espalier run environments/two-trees.toml

@@ -33,7 +33,7 @@ struct RunArguments {
     double timeout = 3600;  ///< seconds that a process may take to answer in one step; 0: any time
     bool quiet = false;
     bool json = false;
-    std::function<void(const std::vector<Diagnostic>&)> warn = print_warnings;  ///< unless `quiet`
+    std::function<void(const std::vector<Diagnostic>&, bool quiet)> warn = print_warnings;
 };
 /// Takes the settings of a file that `espalier tree` writes, or of one of its presets, for the model, or the first
 /// plant of the scene; what the arguments say themselves counts more. Throws UserError.

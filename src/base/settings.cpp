@@ -218,7 +218,14 @@ std::string Settings::choice_or(std::string_view key, std::string_view fallback,
 }
 
 std::filesystem::path Settings::path(std::string_view key) const {
-    const std::filesystem::path given = text(key);
+    const std::string words = text(key);
+    if (words.find_first_of("\b\t\n\f\r") != std::string::npos) {
+        throw UserError(place(key),
+                        fmt::format("'{}' holds a tab or the end of a line: in double quotes, \\t and \\n mean "
+                                    "these. Write a path with slashes, or in single quotes",
+                                    key));
+    }
+    const std::filesystem::path given = words;
     return given.is_absolute() ? given : (node_->folder / given).lexically_normal();
 }
 
@@ -282,6 +289,12 @@ std::string Settings::value_text(std::string_view key) const {
         default:
             wrong_type(node, key, "a number or a text");
     }
+}
+
+std::vector<std::string> Settings::texts_below() const {
+    std::vector<std::string> texts;
+    node_->collect_texts(texts);
+    return texts;
 }
 
 void Settings::ignore() const {

@@ -164,6 +164,11 @@ void Node::mark_read_below() {
     mark_below(*this);
 }
 
+void Node::collect_texts(std::vector<std::string>& texts) const {
+    if (type == Type::text) texts.push_back(text);
+    for (const std::shared_ptr<Node>& item : items) item->collect_texts(texts);
+}
+
 void Node::collect_unread(std::vector<Diagnostic>& diagnostics) const {
     const std::lock_guard lock(marks());
     collect_unread_below(*this, diagnostics);

@@ -40,6 +40,7 @@ struct Settings::Node {
     void remember_default(std::string_view key, std::shared_ptr<Node> value);
     void put(const std::string& key, std::shared_ptr<Node> value);
     void mark_read_below();
+    void collect_texts(std::vector<std::string>& texts) const;
     void collect_unread(std::vector<Diagnostic>& diagnostics) const;
     std::string to_json() const;
 };

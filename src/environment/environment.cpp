@@ -76,6 +76,7 @@ Environment::Environment(const std::vector<std::pair<std::string, Settings>>& ta
     if (processes_.size() == 1) default_ = 0;
     note_memory();
     batches_.resize(processes_.size());
+    asked_.resize(processes_.size());
     answering_ = std::make_unique<Answering>();
 }
 
@@ -144,6 +145,18 @@ void Environment::require_answers(const Model& model, const std::string& plant_n
                                     model.name, is_unnamed ? "?E" : symbol, parameters_text({given, given}),
                                     names_[*process], kinds_[*process], parameters_text(arities_[*process])));
     });
+}
+
+std::set<std::size_t> Environment::may_ask(const Model& model) const {
+    std::set<std::size_t> asked;
+    visit_written_queries(model, [&](const ModuleTemplate& module, bool is_unnamed) {
+        if (is_unnamed && routed_) {
+            for (std::size_t process = 0; process < processes_.size(); ++process) asked.insert(process);
+        }
+        const auto process = is_unnamed ? default_ : find(model.alphabet.name(module.letter).substr(1));
+        if (process) asked.insert(*process);
+    });
+    return asked;
 }
 
 // What a communication changes of a query, and how it is routed, its process does not know.

@@ -1,4 +1,4 @@
-// Models of related programs, which are told apart so that their reader learns more than that a line is wrong.
+// Files of related programs, which are told apart so that their reader learns more than that a line is wrong.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,8 @@
 
 namespace espalier::language {
 
-/// What a text is that looks like a model of L-Py or one in L+C, as a sentence; nothing for all others.
+/// What a text is that is no model of ours but looks like something else that a reader may have at hand, as a sentence
+/// with what to do; nothing for all others.
 std::optional<std::string> other_language(std::string_view text, const std::filesystem::path& path);
 
 }  // namespace espalier::language

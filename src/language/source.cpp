@@ -98,21 +98,24 @@ Location MappedText::location(std::size_t offset) const {
 void Mistakes::error(Location at, std::string message) {
     const auto is_same = [&](const SyntaxError& other) { return other.at == at && other.message == message; };
     if (std::any_of(errors_.begin(), errors_.end(), is_same)) return;
-    errors_.push_back({at, std::move(message)});
+    errors_.push_back({{at, std::move(message)}});
     if (errors_.size() >= most_errors) throw TooManyMistakes{};
 }
 
 void Mistakes::warning(Location at, std::string message) {
-    warnings_.push_back({at, std::move(message)});
+    warnings_.push_back({{at, std::move(message)}});
 }
 
-std::vector<Diagnostic> Mistakes::sorted(std::vector<SyntaxError> found, Diagnostic::Severity severity) const {
-    std::stable_sort(found.begin(), found.end(),
-                     [](const SyntaxError& a, const SyntaxError& b) { return a.at < b.at; });
+void Mistakes::insist(Location at, std::string message) {
+    warnings_.push_back({{at, std::move(message)}, true});
+}
+
+std::vector<Diagnostic> Mistakes::sorted(std::vector<Mistake> found, Diagnostic::Severity severity) const {
+    std::stable_sort(found.begin(), found.end(), [](const Mistake& a, const Mistake& b) { return a.at < b.at; });
     std::vector<Diagnostic> diagnostics;
-    for (SyntaxError& mistake : found) {
-        diagnostics.push_back(
-            {severity, sources_.place(mistake.at), std::move(mistake.message), sources_.line_at_place(mistake.at)});
+    for (Mistake& mistake : found) {
+        diagnostics.push_back({severity, sources_.place(mistake.at), std::move(mistake.message),
+                               sources_.line_at_place(mistake.at), mistake.insistent});
     }
     return diagnostics;
 }

@@ -91,19 +91,24 @@ public:
     void error(Location at, std::string message);
     void error(const SyntaxError& mistake) { error(mistake.at, mistake.message); }
     void warning(Location at, std::string message);
+    /// A warning that --quiet does not silence.
+    void insist(Location at, std::string message);
 
     bool none() const { return errors_.empty(); }
     std::vector<Diagnostic> errors() const { return sorted(errors_, Diagnostic::Severity::error); }
     std::vector<Diagnostic> warnings() const { return sorted(warnings_, Diagnostic::Severity::warning); }
 
 private:
+    struct Mistake : SyntaxError {
+        bool insistent = false;
+    };
     static constexpr std::size_t most_errors = 20;
 
-    std::vector<Diagnostic> sorted(std::vector<SyntaxError> found, Diagnostic::Severity severity) const;
+    std::vector<Diagnostic> sorted(std::vector<Mistake> found, Diagnostic::Severity severity) const;
 
     const Sources& sources_;
-    std::vector<SyntaxError> errors_;
-    std::vector<SyntaxError> warnings_;
+    std::vector<Mistake> errors_;
+    std::vector<Mistake> warnings_;
 };
 
 }  // namespace espalier::language

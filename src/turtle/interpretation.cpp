@@ -3,6 +3,7 @@
 
 #include "language/vector_field.h"
 #include "turtle/walk/parallel_walk.h"
+#include "turtle/walk/symbol_table.h"
 
 #include <set>
 
@@ -13,6 +14,32 @@ void Interpretation::clear() {
     queries.clear();
     answers.clear();
     directions.clear();
+}
+
+unsigned ignored_by_turtle(const SymbolTable& symbols) {
+    return symbols.ignored;
+}
+
+std::vector<Diagnostic> warnings_of_ignored(unsigned ignored, const Model& model) {
+    struct Sentence {
+        Ignored what;
+        const char* text;
+    };
+    constexpr Sentence sentences[] = {
+        {Ignored::up_vector,
+         "@R is given an up vector that is not perpendicular to its heading, within 1e-9, or not whole: it has no "
+         "effect, and the turtle twists least"},
+        {Ignored::tropism,
+         "@Ts, @Ti, @Td or @T names a tropism that there is not: it has no effect. They are numbered from 1 in the "
+         "order of the view file or of the scene"},
+    };
+    std::vector<Diagnostic> warnings;
+    for (const Sentence& sentence : sentences) {
+        if (!(ignored & static_cast<unsigned>(sentence.what))) continue;
+        const Place place{model.path.empty() ? model.name : model.path.string()};
+        warnings.push_back({Diagnostic::Severity::warning, place, sentence.text, "", /*insistent=*/true});
+    }
+    return warnings;
 }
 
 // A text of a label that reads like such a field is taken for one.

@@ -131,16 +131,16 @@ TEST_CASE_METHOD(BadInput, "a typo in a model names its place, in a scene too", 
 }
 
 TEST_CASE_METHOD(BadInput, "a name that nothing assigns is warned of, once", "[app]") {
-    write("typo.l", "lsystem: 1\naxiom: A(1)\nA(length) --> F(lenght)F(lenght)\nendlsystem\n");
+    write("typo.l", "lsystem: 1\nderivation length: 1\naxiom: A(1)\nA(length) --> F(lenght)F(lenght)\nendlsystem\n");
     write("scene.toml", "[[plant]]\nmodel = 'typo.l'\n[[plant]]\nmodel = 'typo.l'\n");
     for (const char* command : {"derive typo.l", "run typo.l", "run scene.toml"}) {
         const Outcome outcome = run(command);
         INFO(outcome.err);
         CHECK(outcome.code == 0);
-        CHECK_THAT(outcome.err, Contains("typo.l:3:17: warning") && Contains("did you mean 'length'?"));
+        CHECK_THAT(outcome.err, Contains("typo.l:4:17: warning") && Contains("did you mean 'length'?"));
         CHECK(outcome.err.find("warning") == outcome.err.rfind("warning"));
     }
-    CHECK_THAT(run("check typo.l").out, Contains("typo.l:3:17: warning"));
+    CHECK_THAT(run("check typo.l").out, Contains("typo.l:4:17: warning"));
     CHECK(run("derive typo.l --quiet").err.empty());
 }
 

@@ -18,15 +18,6 @@ constexpr std::size_t longest = 1 << 14;
 constexpr std::size_t memory = 1 << 18;
 constexpr int steps = 3;
 
-const std::vector<std::string>& turtle_symbols() {
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> all;
-        for (const auto& [name, symbol] : registered<Symbol>()) all.push_back(name);
-        return all;
-    }();
-    return names;
-}
-
 // Surfaces, contours, a function and tropisms for models to use.
 const View& view() {
     static const View known = [] {
@@ -89,7 +80,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     options.predefined = {{"WIDTH", "1"}};
     try {
         const std::shared_ptr<const Model> model = read_model_text(text, "model.l", "/nonexistent", options);
-        review(*model, turtle_symbols());
+        static const ReviewOptions options_of_review{symbol_arities()};
+        review(*model, options_of_review);
         grow(model);
     } catch (const UserError&) {
     } catch (const RunError&) {

@@ -201,7 +201,7 @@ TEST_CASE("14 differences", "[conformance]") {
         "A line that begins with `#` is a directive only if the directive is known: `#5 F` contains modules. A double "
         "quote without a closing quote ends at the end of its line, not of the file.");
     CHECK(step("A", "#define W 3\n/* 5\" pot */\n// 6\" pot\nA --> F(W)\n") == "F(3)");
-    quote("Brackets need not match; `check` warns.");
+    quote("Brackets need not match; a warning says so.");
     CHECK(step("A[B", "A --> B\n") == "B[B");
     CHECK(step("A]B", "A --> B]\n") == "B]]B");
 }

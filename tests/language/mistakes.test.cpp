@@ -64,7 +64,7 @@ TEST_CASE("many mistakes are reported in one go, up to twenty, sorted by place",
 TEST_CASE("models of other programs and binary files are told apart in a sentence", "[language]") {
     CHECK(messages("Axiom: A(0)\nderivation length: 5\nproduction:\nA(x) --> F(x)A(x+1)\nendlsystem\n") ==
           "0:0: model.l: this is a model of L-Py, which is Python and needs that program; Espalier reads models of "
-          "cpfg, which begin with 'lsystem:'");
+          "cpfg, which begin with 'lsystem:'. The module of Python translates simple ones: espalier.from_lpy");
     CHECK(messages("#include <lpfgall.h>\nmodule A(int);\nAxiom: A(0);\nA(x) : { produce F(x) A(x+1); }\n") ==
           "0:0: model.l: this is a model in L+C, the language of lpfg, which is C++ and needs that program; Espalier "
           "reads models of cpfg, which begin with 'lsystem:'");
@@ -122,4 +122,38 @@ TEST_CASE("any bytes at all are read or refused, never a crash", "[language]") {
             CHECK_FALSE(error.diagnostics().empty());
         }
     }
+}
+
+TEST_CASE("files of other programs are named, and what to write in their place", "[language]") {
+    const auto said = [](const std::string& text) { return messages(text); };
+    CHECK(said("Dragon {\n  Angle 4\n  Axiom FX\n  X=X+YF+\n  Y=-FX-Y\n}\n").find("an L-system of Fractint") !=
+          std::string::npos);
+    CHECK(said("11\n45\n20\nA\nA=F[+A][-A]\n@\n").find("an L-system of LParser") != std::string::npos);
+    CHECK(
+        said("module Bud(int n) extends Sphere(0.1);\nprotected void init() [ Axiom ==> Bud(5); ]\n").find("GroIMP") !=
+        std::string::npos);
+    CHECK(said("Premise A\nRule 1: A=F[+A]A\n").find("Houdini") != std::string::npos);
+    CHECK(said("variables : A B\nconstants : none\naxiom  : A\nrules  : (A -> AB), (B -> A)\n")
+              .find("the notation of encyclopedias") != std::string::npos);
+    CHECK(said("[simulation]\nsteps = 3\n[[plant]]\nmodel = \"a.l\"\n").find("this is a scene") != std::string::npos);
+    CHECK(said("<?xml version=\"1.0\"?>\n<rsml></rsml>\n").find(".rsml") != std::string::npos);
+    CHECK(said("<!DOCTYPE html>\n<html>lsystem</html>\n").find("a web page") != std::string::npos);
+    CHECK(said("{\"axiom\": \"F\", \"rules\": {\"F\": \"FF\"}}\n").find("this is JSON") != std::string::npos);
+    CHECK(said("CODE:\tFORM-A\n\nCLASSES:\n").find(".mtg") != std::string::npos);
+    CHECK(said("import turtle\ndef grow(s):\n    return s\n").find("a program in Python") != std::string::npos);
+    // A sound model is read whatever its names remind of.
+    CHECK(said("lsystem: 1\naxiom: A\nA --> A\nendlsystem\n/* rules, variables,\nangle 90\nimport\n*/\n") == "");
+    // A mistake of a model is not hidden by such a sentence.
+    CHECK(said(lsystem_of("", "A", "A -> B\n")) == "3:3: the arrow of a production is '-->', not '->'");
+}
+
+TEST_CASE("lines of a model without its head are told what stands around them", "[language]") {
+    const std::string around =
+        ": this is a part of a model, which begins with lines 'lsystem: 1', 'derivation length: 5' and "
+        "'axiom: ...' and ends with 'endlsystem'";
+    CHECK(messages("axiom: F\nF --> FF\n") == "1:1: expected 'lsystem:', found 'axiom'" + around);
+    CHECK(messages("A(x) : x > 1 --> F(x)A(x-1)\nA(x) : x <= 1 --> *\n") ==
+          "1:1: expected 'lsystem:', found 'A'" + around);
+    CHECK(messages("derivation length: 3\n") == "1:1: expected 'lsystem:', found 'derivation length'" + around);
+    CHECK(messages("Dear reader,\n") == "1:1: expected 'lsystem:', found 'Dear reader,'");
 }

@@ -7,13 +7,33 @@ using namespace espalier::test;
 
 namespace {
 
-std::string warnings(const std::string& text, const std::vector<std::string>& turtle_symbols = {}) {
+/// Symbols that act on any number of parameters.
+ReviewOptions turtle_with(const std::vector<std::string>& symbols) {
+    ReviewOptions options;
+    for (const std::string& symbol : symbols) options.turtle[symbol];
+    return options;
+}
+
+std::string warnings(const std::string& text, const ReviewOptions& options) {
     std::string result;
-    for (const Diagnostic& warning : review(*read(text), turtle_symbols)) {
+    for (const Diagnostic& warning : review(*read(text), options)) {
         CHECK(warning.severity == Diagnostic::Severity::warning);
         if (!result.empty()) result += "\n";
         if (warning.place.known()) result += std::to_string(warning.place.line) + ": ";
         result += warning.message;
+    }
+    return result;
+}
+
+std::string warnings(const std::string& text, const std::vector<std::string>& turtle_symbols = {}) {
+    return warnings(text, turtle_with(turtle_symbols));
+}
+
+/// What --quiet does not silence.
+std::string insistent_warnings(const std::string& text, const ReviewOptions& options = {}) {
+    std::string result;
+    for (const Diagnostic& warning : review(*read(text), options)) {
+        if (warning.insistent) result += std::to_string(warning.place.line) + ": " + warning.message + "\n";
     }
     return result;
 }
@@ -204,4 +224,126 @@ TEST_CASE("a module that is declared without parameters may be written with empt
     CHECK(model->main().axiom[0].letter == model->main().axiom[1].letter);
     CHECK(model->main().productions[0].strict[0].letter == model->main().axiom[0].letter);
     CHECK(model->main().productions[0].successor[0].letter == model->main().axiom[0].letter);
+}
+
+TEST_CASE("a module with a number of parameters that nothing takes is named, and what has one", "[language]") {
+    ReviewOptions turtle = turtle_with({"F", "+", "@L", "{", "}", "."});
+    turtle.turtle["@R"] = {2, 3, 4, 5, 6};
+    turtle.turtle["@o"] = {0, 1};
+    const auto of = [&](const std::string& axiom, const std::string& rules) {
+        return warnings(lsystem_of("", axiom, rules), turtle);
+    };
+    const std::string comma =
+        "is another module than 'F' with 1 parameter, and of its parameters only the first means "
+        "something: is a ',' a '.'?";
+    CHECK(of("F(1)A", "A --> F(1,5)A\n") == "3: 'F' with 2 parameters " + comma);
+    CHECK(of("F(1)F(1,5)", "F(x) --> F(x*1.5)\n") == "2: 'F' with 2 parameters " + comma);
+    CHECK(of("A(1)", "A(x) --> F(x)A(x,1)\n") ==
+          "3: 'A' with 2 parameters is taken by no production; those for 'A' take 1");
+    CHECK(of("@R(1)F", "F --> F\n") ==
+          "2: '@R' with 1 parameter means nothing to the turtle, which takes 2 or 3 or 4 or "
+          "5 or 6");
+    CHECK(of("@o(1,2)F", "F --> F\n") == "2: '@o' with 2 parameters means nothing to the turtle, which takes 0 or 1");
+    // Symbols with a default, data that only the timeline records, parts of the model that other productions take.
+    CHECK(of("F(1)F", "F(x) --> F(x)[+F][+(30)F]\n") == "");
+    CHECK(of("F(1,5)", "F(x,y) --> F(x,y+1)F(x,0)\n") == "");
+    CHECK(of("F(1)F(1,5)", "F(x) --> F(x*2)\nF(x,y) --> F(x,y-1)\n") == "");
+    CHECK(of("F(1)F(1,5)", "F(x,y) < F(z) --> F(z)\nF(x) --> F(x*2)\n") == "");
+    CHECK(of("A(1)", "A(x) : x < 5 --> F(x)A(x+1)\nA(x) --> A\n") == "");
+    CHECK(of("A(1)", "A(x) --> FA(x)\nhomomorphism\nA(x) --> @o(x)\n") == "");
+    CHECK(of("A(1)", "A(x) --> @R(1,0)F@R(1,0,0)F@R(1,0,0,0,1,0)A(x)\n") == "");
+    CHECK(of("A", "A --> @L(\"%d\",1)@L(\"a\")@L(\"%d %d\",1,2)A\n") == "");
+    CHECK(of("A", "A --> {F.}{(1)F.(3)}{(1,4)F.}A\n") == "");
+    CHECK(of("A?E(1,2)", "A > ?E(x) --> A?E(1)\nA > ?E(x,y) --> A?E(1,2)\n") == "");
+}
+
+TEST_CASE("a condition that is a number is taken for a probability, a switch is not", "[language]") {
+    const auto under = [](const std::string& condition) {
+        return warnings("#define DENSE 1\n#define P 0.3\n" + lsystem_of("", "F", "F : " + condition + " --> FF\n"));
+    };
+    CHECK(under("0.2") ==
+          "5: this condition is the number 0.2, so it always holds: is it a probability? A weight stands "
+          "behind the successor, '--> ... : 0.2', and needs a line 'seed: 1' in the header");
+    CHECK(under("P").find("is it a probability?") != std::string::npos);
+    CHECK(under("33").find("is it a probability?") != std::string::npos);
+    for (const char* sound : {"1", "DENSE", "DENSE == 1", "2 > 1", "*", "ran(1) < 0.2", "Q"}) {
+        INFO(sound);
+        CHECK(under(sound) == "");
+    }
+}
+
+TEST_CASE("labels of productions, as books have them, are refused or pointed out", "[language]") {
+    CHECK(messages(lsystem_of("", "A(1)", "p1: A(d) : d>0 --> A(d-1)\np_2 : A(d) : d<=0 --> *\n")) ==
+          "3:1: productions have no labels: leave 'p1:' away\n4:1: productions have no labels: leave 'p_2 :' away");
+    CHECK(warnings(lsystem_of("", "A", "p1 : A --> AA\n")) ==
+          "3: 'p1' is read as the modules that this production replaces, and nothing produces them. If it is a label: "
+          "productions have none, so leave 'p1:' away");
+    // Modules of these names, and the two ':' of one condition.
+    CHECK(warnings(lsystem_of("", "p1", "p1 : Q > 1 --> p1p1\n")) == "");
+    CHECK(messages(lsystem_of("", "A1", "A1 : Q > 1 ? 1 : 0 --> A1A1\n")) == "");
+    CHECK(messages(lsystem_of("seed: 1\n", "p1", "p1 : Q > 1 --> p1 : 0.5\np1 --> p1p1 : 0.5\n")) == "");
+}
+
+TEST_CASE("what one string opens another may close, and --quiet then says nothing", "[language]") {
+    CHECK(insistent_warnings(lsystem_of("", "A", "A --> F[A\n")) ==
+          "3: this branch is not closed in this successor: ']' is missing\n");
+    const std::string in_two = lsystem_of("", "A", "A --> F[B\nB --> FB]\n");
+    CHECK(insistent_warnings(in_two) == "");
+    CHECK(warnings(in_two).find("']' is missing") != std::string::npos);
+}
+
+TEST_CASE("warnings that --quiet does not silence are of what has not the effect it reads like", "[language]") {
+    const ReviewOptions turtle = turtle_with({"F", "+"});
+    CHECK(insistent_warnings(lsystem_of("", "A(1)", "A --> F\n")).find("nothing produces 'A'") != std::string::npos);
+    CHECK(insistent_warnings(lsystem_of("", "A", "Apex --> F\n"), turtle).find("'Apex' is read as") !=
+          std::string::npos);
+    CHECK(insistent_warnings("environment light;\n" + lsystem_of("", "F?lite(1)", "F --> F\n"), turtle)
+              .find("no process answers") != std::string::npos);
+    // What waits for a mouse, what is odd but done as written.
+    CHECK(insistent_warnings(lsystem_of("", "A", "X --> F\n"), turtle) == "");
+    CHECK(insistent_warnings(lsystem_of("", "A", "A : 2 > 3 --> A\n"), turtle) == "");
+    CHECK(insistent_warnings(lsystem_of("", "A", "A --> AX\n"), turtle) == "");
+}
+
+TEST_CASE("modules that a run inserts are produced", "[language]") {
+    const auto model = read(lsystem_of("", "FA", "X(n) : n > 0 --> FX(n-1)\n"));
+    ReviewOptions options = turtle_with({"F", "A"});
+    CHECK(review(*model, options).size() == 1);
+    options.inserted = {model->alphabet.find("X", 1).value()};
+    CHECK(review(*model, options).empty());
+}
+
+TEST_CASE("a character that only looks like one of the keyboard is named with the key to type", "[language]") {
+    const auto told = [](const std::string& successor) {
+        std::string text;
+        for (const Diagnostic& each : reading_warnings(lsystem_of("", "F", "F --> F" + successor + "\n"))) {
+            text += (text.empty() ? "" : "\n") + each.message;
+            CHECK(each.insistent);
+        }
+        return text;
+    };
+    CHECK(told("\u2212(30)F\u2212(10)F") == "this is a module of its own: '\u2212', a minus sign (U+2212): type '-'");
+    CHECK(told("\u2013F") == "this is a module of its own: '\u2013', a dash (U+2013): type '-'");
+    CHECK(told("F\u00A0F").find("(U+00A0): type a blank") != std::string::npos);
+    CHECK(told("\u201CF\u201D").find("type '\"'") != std::string::npos);
+    CHECK(told("\uFF26").find("(U+FF26): type 'F'") != std::string::npos);
+    CHECK(told("\u0410").find("(U+0410): type 'A'") != std::string::npos);
+    CHECK(told("\x96"
+               "F")
+              .find("the byte 0x96, which is no text in UTF-8: type '-', or save the file in UTF-8") !=
+          std::string::npos);
+    // Letters that nothing looks like, strings, comments.
+    CHECK(told("\u03B1\u00FC") == "");
+    CHECK(told("@L(\"\u2013\")/* \u2212 */") == "");
+    // In an expression and for an arrow, where it is a mistake.
+    CHECK(messages(lsystem_of("", "F(1)", "F(x) --> F(x \u2212 1)\n")) ==
+          "3:14: expected ')' after the parameters of 'F', found '\u2212', a minus sign (U+2212): type '-'");
+    CHECK(messages(lsystem_of("", "F", "F \u2192 FF\n")) == "3:3: the arrow of a production is '-->', not '\u2192'");
+}
+
+TEST_CASE("a character beyond ASCII that has no effect is told under --quiet, too", "[language]") {
+    const ReviewOptions turtle = turtle_with({"F"});
+    CHECK(insistent_warnings(lsystem_of("", "F\u03B1", "F --> FF\n"), turtle).find("'\u03B1' has no effect") !=
+          std::string::npos);
+    CHECK(insistent_warnings(lsystem_of("", "F\u03B1", "\u03B1 --> F\u03B1\n"), turtle) == "");
 }

@@ -26,6 +26,8 @@ struct Diagnostic {
     Place place;
     std::string message;
     std::string source = {};
+    /// Of a warning: something that was written has not the effect it reads like, so --quiet does not silence it.
+    bool insistent = false;
 };
 
 /// The message as the user reads it: place, message, source line and caret.

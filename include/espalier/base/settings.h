@@ -103,6 +103,9 @@ public:
     /// A table of its own with the same values, none of them read. In messages `name` stands where a file's would.
     Settings copy(const std::string& name) const;
 
+    /// All values here and below that are texts. Marks nothing as read.
+    std::vector<std::string> texts_below() const;
+
     /// Marks everything here and below as read: a table that is not used may hold anything.
     void ignore() const;
     /// Throws UserError listing every key that was not read, here and below, with the nearest name that was asked for.

@@ -6,6 +6,7 @@
 #include "espalier/environment/environment_process.h"
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,13 @@ public:
     void require_answers(const Model& model, const std::string& plant_name) const;
     /// The processes of the model that the scene lacks: queries to them are answered the model's defaults.
     std::vector<std::string> answered_by_default(const Model& model) const;
+
+    /// The processes that strings of the model may query.
+    std::set<std::size_t> may_ask(const Model& model) const;
+    /// True if a query has come to the process since the beginning, or since the restart.
+    bool was_asked(std::size_t process) const { return asked_[process]; }
+    /// True if the process measures organs, asked or not.
+    bool measures_organs(std::size_t process) const { return !processes_[process]->organ_quantities().empty(); }
 
     /// One exchange: all queries of all plants in plant order then string order; every process in scene order advances
     /// once and answers its batch; answers go into the parameters of `strings[i]` (of plant i). Nothing else changes.
@@ -121,6 +129,7 @@ private:
     std::vector<std::unique_ptr<EnvironmentProcess>> processes_;
     std::vector<std::pair<int, int>> arities_;
     std::vector<std::size_t> kept_;  ///< bytes of memory, for each process
+    std::vector<bool> asked_;
     std::vector<Communication> communications_;
     Fields fields_;
     std::optional<std::size_t> default_;

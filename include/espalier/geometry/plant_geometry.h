@@ -116,6 +116,8 @@ struct PlantGeometry {
     Box bounds;  ///< bounds of everything drawn, thickness included
 
     void clear();
+    /// Nothing is drawn, not even a label.
+    bool is_empty() const;
 };
 
 /// Sums over the internodes: lengths, and volumes of the truncated cones they are.

@@ -38,9 +38,17 @@ std::shared_ptr<const Model> read_model(const std::filesystem::path& path, const
 std::shared_ptr<const Model> read_model_text(std::string_view text, const std::string& name,
                                              const std::filesystem::path& folder = {}, const ReadOptions& options = {});
 
-/// What `espalier check` warns about: productions that can never apply, modules that are never produced, unmatched
-/// brackets, `consider` lists without brackets together with right contexts, homomorphism cycles, queries without a
-/// process. `turtle_symbols` are the symbols the turtle knows (multi-character ones included, such as "@o").
-std::vector<Diagnostic> review(const Model& model, const std::vector<std::string>& turtle_symbols);
+/// What a model does not say itself.
+struct ReviewOptions {
+    /// Symbols that the turtle knows, such as "@o", and the numbers of parameters on which they act; none: on any.
+    std::map<std::string, std::vector<int>, std::less<>> turtle = {};
+    /// Modules that are put into the string while it grows.
+    std::set<LetterId> inserted = {};
+};
+
+/// What is legal in a model and looks wrong: productions that can never apply, modules that are never produced,
+/// unmatched brackets, numbers of parameters that no production takes, `consider` lists without brackets together with
+/// right contexts, homomorphism cycles, queries without a process. In the order of their places.
+std::vector<Diagnostic> review(const Model& model, const ReviewOptions& options);
 
 }  // namespace espalier::language

@@ -46,7 +46,7 @@ struct RunOptions {
     std::function<void(const Progress&)> progress = nullptr;
     /// Called before the checkpoint of an interrupted run is written, which takes about so many bytes.
     std::function<void(std::size_t bytes)> saving = nullptr;
-    /// Called once, before anything grows, with what the processes ignored in their parameter files.
+    /// Called with the world's new warnings: before anything grows, after steps, and in the end.
     std::function<void(const std::vector<Diagnostic>&)> warn = nullptr;
 };
 

@@ -105,6 +105,9 @@ public:
     bool stopped() const;  ///< a model called stop()
     /// Stopped, or at the last step. Ask after every step.
     bool at_end() const;
+    /// After the last step, on all ranks: adds to the warnings what only a whole run shows, such as models of which no
+    /// plant has drawn anything. Not after restore(), which knows a part of the run.
+    void review_run();
     std::size_t modules() const;
     std::size_t modules_of(std::size_t plant) const;
     std::size_t bytes_of_strings() const;  ///< of the plants that are here, in memory or on disk
@@ -120,7 +123,8 @@ public:
     const Environment& environment() const;
     /// The scene with what it left open decided: names, random streams, the values that processes use.
     const Scene& scene() const;
-    /// What the processes ignored in their parameter files, and what they found in steps. It only grows.
+    /// What the processes ignored in their parameter files, processes that nothing asks, and what processes and turtles
+    /// found in steps. It only grows.
     const std::vector<Diagnostic>& warnings() const;
     std::size_t size() const;  ///< number of plants
 

@@ -1,6 +1,7 @@
 // Interpretation: a turtle walks the string and leaves geometry and queries. A function of its arguments.
 #pragma once
 
+#include "espalier/base/error.h"
 #include "espalier/base/stations.h"
 #include "espalier/geometry/field_values.h"
 #include "espalier/geometry/plant_geometry.h"
@@ -30,6 +31,11 @@ struct Interpretation {
 /// What the turtle does with each letter of a model, looked up once per model. Thread safe to use.
 class SymbolTable;
 std::shared_ptr<const SymbolTable> symbol_table(const Model& model);
+
+/// What strings said in vain in all walks with this table so far, a bit for each kind of thing.
+unsigned ignored_by_turtle(const SymbolTable& symbols);
+/// The same as warnings, in a fixed order.
+std::vector<Diagnostic> warnings_of_ignored(unsigned ignored, const Model& model);
 
 struct InterpretOptions {
     std::uint32_t plant = 0;

@@ -6,6 +6,8 @@
 #include "espalier/base/stations.h"
 #include "espalier/turtle/walk.h"
 
+#include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -48,6 +50,9 @@ struct Symbol {
     Effect effect = Effect::other;
     Step step = Step::by_action;
 };
+
+/// The names of all symbols, and the numbers of parameters on which they act; none: on any.
+std::map<std::string, std::vector<int>, std::less<>> symbol_arities();
 
 /// Symbols that belong together, as the manual tells of them: one group in each file of src/turtle/symbols/.
 struct SymbolGroup {

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -145,6 +146,9 @@ struct WalkState {
     bool stands_like(const WalkState& other) const;
 };
 
+/// What a symbol says and the turtle cannot use.
+enum class Ignored : unsigned { up_vector = 1, tropism = 2 };
+
 class Walk : private WalkState {
 public:
     /// A stretch of a column for each kind of row that was counted before.
@@ -262,6 +266,9 @@ public:
     /// The symbol of the current module, one code point or a declared name.
     const std::string& symbol() const;
 
+    /// Notes what the current module says in vain: it is told once of each model.
+    void ignore(Ignored what) const;
+
     /// Throws RunError naming the module, the plant and the modules around it.
     [[noreturn]] void fail(const std::string& what) const;
     [[noreturn]] void fail(const char* what) const;
@@ -302,6 +309,7 @@ private:
     std::uint32_t plant_ = 0;
     const FieldValues* fields_ = nullptr;
     const std::vector<std::int16_t>* processes_ = nullptr;  // by letter
+    std::atomic<unsigned>* ignored_ = nullptr;              // bits of `Ignored`; null: nobody asks
 
     std::uint32_t module_ = 0;       // index in the plant's string of the module that is drawn
     std::size_t parameters_at_ = 0;  // where its parameters begin

@@ -191,6 +191,7 @@ Sweep::Outcome Sweep::run(int jobs, bool quiet) const {
     if (!quiet && left.size() < runs_.size()) {
         fmt::print(stderr, "{} of {} runs are already complete\n", runs_.size() - left.size(), runs_.size());
     }
+    if (!left.empty()) tell_warnings(*left.front(), quiet);
     RunPool pool(*this, left.size(), quiet);
     int passed_on = 0;
     for (std::size_t next = 0; pool.size() > 0 || (next < left.size() && signals.count() == 0);) {
@@ -202,6 +203,17 @@ Sweep::Outcome Sweep::run(int jobs, bool quiet) const {
         pool.reap();
     }
     return {pool.failed(), signals.count() > 0};
+}
+
+// They are alike in all runs, whose own go to their logs.
+void Sweep::tell_warnings(const SweepRun& run, bool quiet) const {
+    RunArguments arguments = arguments_of(run.variant);
+    arguments.quiet = true;
+    try {
+        print_warnings(scene_of(arguments).notes.diagnostics, quiet);
+    } catch (const UserError&) {
+        // The run itself will say what is wrong.
+    }
 }
 
 std::vector<SweepResult> Sweep::results() const {

@@ -54,6 +54,7 @@ public:
 
 private:
     RunArguments arguments_of(const Variant& variant) const;
+    void tell_warnings(const SweepRun& run, bool quiet) const;
 
     RunArguments base_;
     std::vector<Variation> variations_;

@@ -50,7 +50,7 @@ public:
         app().add_option("--plot", plot_,
                          "file for the charts, .png or .svg; default with --statistic: sweep.png in the folder");
         app().add_flag("--list", list_, "print the commands that are still to be run, and do not run them");
-        app().add_flag("--quiet", quiet_, "print errors only");
+        app().add_flag("--quiet", quiet_, quiet_growth_help);
         app().footer(
             R"(A sweep continues where it stopped: complete runs whose files have not changed are kept.
 At the end, sweep.csv has one row for every run and plant: the values, then the last step of statistics.csv.

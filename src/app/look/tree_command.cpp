@@ -123,7 +123,7 @@ public:
             ->check(CLI::Range(1, 4096));
         app().add_option("--memory", memory_,
                          "memory that the growth may use, such as 4G; default: half of the machine");
-        app().add_flag("--quiet", arguments_.quiet, "print errors only");
+        app().add_flag("--quiet", arguments_.quiet, quiet_growth_help);
         add_json_flag("print the result as JSON");
         // The model is read only if a tree is asked for.
         app().preparse_callback([this](std::size_t) { add_options_of_files(); });
@@ -247,10 +247,10 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
             arguments_.overrides.emplace_back("plant.0.define." + name, value);
         }
         dress_leaves();
-        arguments_.warn = [this](const std::vector<Diagnostic>& warnings) { warn(warnings); };
+        arguments_.warn = [this](const std::vector<Diagnostic>& warnings, bool quiet) { warn(warnings, quiet); };
         const ReadLog inputs;
         const Scene scene = scene_of(arguments_);
-        if (!arguments_.quiet) print_warnings(scene.notes.diagnostics);
+        print_warnings(scene.notes.diagnostics, arguments_.quiet);
         LastFrame last;
         const RunResult result = grow(arguments_, scene, inputs, run_, &last);
         if (InterruptibleRun::interrupted()) return std::nullopt;
@@ -259,12 +259,12 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
     }
 
     /// The remedy of a scene's process is one for its file; here options have one.
-    void warn(std::vector<Diagnostic> warnings) const {
+    void warn(std::vector<Diagnostic> warnings, bool quiet) const {
         for (Diagnostic& warning : warnings) {
             const std::string end = environment::told_end_of_growth(warning.message);
             if (!end.empty()) warning = {warning.severity, {}, end + remedy(warning.message)};
         }
-        print_warnings(warnings);
+        print_warnings(warnings, quiet);
     }
 
     std::string remedy(const std::string& message) const {

@@ -65,7 +65,10 @@ void write_turtle_answers(const WorldView& world, std::span<ModuleString*> strin
 void Environment::exchange(const WorldView& world, std::span<ModuleString*> strings) {
     assert(strings.size() == world.plants.size());
     gather(world);
-    for (std::size_t process = 0; process < processes_.size(); ++process) consult(process, world);
+    for (std::size_t process = 0; process < processes_.size(); ++process) {
+        if (!batches_[process].queries.empty()) asked_[process] = true;
+        consult(process, world);
+    }
     // Only now: the queries' parameters point into these strings.
     for (const Batch& batch : batches_) write_answers(batch, strings);
     write_defaults(strings);

@@ -27,6 +27,12 @@ void PlantGeometry::clear() {
     bounds = Box{};
 }
 
+bool PlantGeometry::is_empty() const {
+    bool is_empty = true;
+    for_drawn_columns(*this, [&](const auto& column) { is_empty = is_empty && column.empty(); });
+    return is_empty;
+}
+
 double total_length(const PlantGeometry& geometry) {
     double sum = 0;
     for (const Internode& internode : geometry.internodes) sum += glm::distance(internode.base, internode.tip);

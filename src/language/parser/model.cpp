@@ -6,6 +6,7 @@
 #include "language/parser/declarations.h"
 #include "language/parser/expressions.h"
 #include "language/parser/keywords.h"
+#include "language/parser/label.h"
 #include "language/parser/names.h"
 #include "language/parser/productions.h"
 #include "language/parser/scanner.h"
@@ -48,10 +49,10 @@ public:
         }
         statement([&] { names_.finish_model(model_); });
         if (const std::optional<Location> quote = productions_.unread_quote()) {
-            mistakes_.warning(
-                *quote, "nothing reads this module ': in older notation it takes the next colour, in cpfg ; does");
+            mistakes_.insist(*quote,
+                             "nothing reads this module ': in older notation it takes the next colour, in cpfg ; does");
         }
-        if (model_.systems.empty() && complete_) {
+        if (model_.systems.empty() && complete_ && !outside_reported_) {
             mistakes_.error(in_.here(), "there is no L-system here: 'lsystem: 1' ... 'endlsystem' is missing");
         }
     }
@@ -86,15 +87,17 @@ private:
                               keyword == "const" || keyword == "field" || keyword.starts_with('#');
             if (keyword.empty() && !model_.systems.empty()) {
                 if (!std::exchange(outside_reported_, true)) {
-                    mistakes_.warning(in_.here(), "text after 'endlsystem' is ignored");
+                    const bool has_productions = in_.rest().find("-->") != Scanner::npos;
+                    const char* const message = "text after 'endlsystem' is ignored";
+                    has_productions ? mistakes_.insist(in_.here(), message) : mistakes_.warning(in_.here(), message);
                 }
                 in_.recover(in_.position());
                 return;
             }
             // Without its head every line of an L-system is outside: the first is reported.
             if (fits || model_.systems.size() > 0 || !std::exchange(outside_reported_, true)) {
-                mistakes_.error(in_.here(), fmt::format("expected 'lsystem:', found '{}'{}", words_of_line(),
-                                                        fits ? hint(keyword) : ""));
+                mistakes_.error(in_.here(), fmt::format("expected 'lsystem:', found '{}'{}{}", words_of_line(),
+                                                        fits ? hint(keyword) : "", fits ? "" : whole_model()));
             }
             if (keyword != "lsystem") {
                 in_.recover(in_.position());
@@ -105,6 +108,14 @@ private:
         if (!in_.accept(":"))
             mistakes_.error({in_.missing_at(), fmt::format("expected ':' after 'lsystem', found {}", in_.found())});
         lsystem();
+    }
+
+    /// What stands around a line that belongs in an L-system; empty for all others.
+    const char* whole_model() {
+        if (!in_.statement_has_arrow() && !begins_item()) return "";
+        return ": this is a part of a model, which begins with lines 'lsystem: 1', 'derivation length: 5' and 'axiom: "
+               "...' "
+               "and ends with 'endlsystem'";
     }
 
     bool accept_lsystem() { return in_.accept_keyword("lsystem") || in_.accept_keyword("l-system"); }
@@ -196,6 +207,11 @@ private:
             mistakes_.error(in_.here(), "a production before the axiom: 'axiom: ...' is missing");
         }
         const Location at = in_.here();
+        if (const std::size_t length = label_length(in_.rest())) {
+            mistakes_.error(at, fmt::format("productions have no labels: leave '{}' away",
+                                            in_.text(in_.position(), in_.position() + length)));
+            in_.take(length);
+        }
         Production read = productions_.production();
         if (rules_ == &timed_.rules) TimedRules::require_terminal_age(read, at);
         const std::optional<Location> weight = productions_.take_first_weight();
@@ -213,11 +229,10 @@ private:
         const std::string keyword = nearest_keyword();
         if (axiom_read_ && keyword.empty()) {
             const std::string_view line = in_.text(in_.position(), in_.end_of_line(in_.position()));
-            const std::size_t short_arrow = std::min(line.find("->"), line.find("=>"));
-            if (short_arrow != Scanner::npos) {
+            if (const auto [other, length] = other_arrow(line); length > 0) {
                 throw SyntaxError{
-                    in_.location(in_.position() + short_arrow),
-                    fmt::format("the arrow of a production is '-->', not '{}'", line.substr(short_arrow, 2))};
+                    in_.location(in_.position() + other),
+                    fmt::format("the arrow of a production is '-->', not '{}'", line.substr(other, length))};
             }
             // Reads it as a production to say what keeps it from being one.
             productions_.production();
@@ -231,6 +246,15 @@ private:
         if (keyword == "decomposition") rules_ = &system_->decomposition;
         if (keyword == "homomorphism") rules_ = &system_->homomorphism;
         return keyword == "endlsystem";
+    }
+
+    /// Where the first arrow of other notations begins, and its bytes; none if there is none.
+    static std::pair<std::size_t, std::size_t> other_arrow(std::string_view line) {
+        std::pair<std::size_t, std::size_t> first{Scanner::npos, 0};
+        for (const std::string_view arrow : {"->", "=>", "\u2192", "\u21D2", "\u27F6", "\u2794"}) {
+            if (const std::size_t at = line.find(arrow); at < first.first) first = {at, arrow.size()};
+        }
+        return first;
     }
 
     static std::string hint(const std::string& keyword) {
@@ -359,8 +383,7 @@ private:
         const auto accept_block = [&](const char* keyword, Block& block) {
             const Location at = in_.here();
             if (!in_.accept_keyword(keyword)) return false;
-            if (!block.empty())
-                mistakes_.warning(at, fmt::format("a second '{}' takes the first one's place", keyword));
+            if (!block.empty()) mistakes_.insist(at, fmt::format("a second '{}' takes the first one's place", keyword));
             definitions_ahead();
             const Scanner::Inside inside(in_, Scanner::Inside::braces);
             in_.accept(":");

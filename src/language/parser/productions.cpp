@@ -1,5 +1,7 @@
 #include "language/parser/productions.h"
 
+#include "language/parser/lookalikes.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -185,8 +187,17 @@ std::string_view ProductionParser::symbol() {
         in_.expected("a module");
     }
     if (name == "\"") throw SyntaxError{at, "text may be only among the parameters of a module"};
+    tell_lookalike(name, at);
     in_.take(name.size());
     return name;
+}
+
+// Any character may be a module, and yet these are seldom meant to be one.
+void ProductionParser::tell_lookalike(std::string_view symbol, Location at) {
+    if (static_cast<unsigned char>(symbol.front()) < 0x80 || symbols_.declared_arities(symbol)) return;
+    const std::string found = lookalike(symbol);
+    if (found.empty() || !lookalikes_.insert(std::string(symbol)).second) return;
+    mistakes_.insist(at, fmt::format("this is a module of its own: {}", found));
 }
 
 LetterId ProductionParser::letter(std::string_view symbol, std::size_t arity, Location at) {

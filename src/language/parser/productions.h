@@ -9,6 +9,7 @@
 #include "language/parser/symbols.h"
 
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 
@@ -45,6 +46,7 @@ private:
     ModuleTemplate module();
     bool without_parameters(std::string_view symbol);
     std::string_view symbol();
+    void tell_lookalike(std::string_view symbol, Location at);
     LetterId letter(std::string_view symbol, std::size_t arity, Location at);
     std::uint32_t text_index(const std::string& text);
 
@@ -58,6 +60,7 @@ private:
     std::optional<Location> first_weight_;
     std::optional<Location> first_quote_;
     bool names_quote_ = false;
+    std::set<std::string> lookalikes_;  // that were told of
 };
 
 }  // namespace espalier::language

@@ -1,6 +1,7 @@
 #include "language/parser/scanner.h"
 
 #include "language/parser/keywords.h"
+#include "language/parser/lookalikes.h"
 
 #include <fmt/format.h>
 
@@ -93,6 +94,7 @@ std::string Scanner::found() const {
     if (at_end_of_text()) return "the end of the file";
     if (peek() == '\n' || between.find('\n') != npos) return "the end of the line";
     if (const std::size_t length = arrow()) return fmt::format("'{}'", text(position_, position_ + length));
+    if (const std::string other = lookalike(rest()); !other.empty()) return other;
     std::size_t end = position_ + 1;
     if (is_name_part(peek())) {
         while (end < text_.size() && is_name_part(text_[end]) && end - position_ < 40) ++end;

@@ -90,7 +90,7 @@ private:
         const std::string message =
             "a comment begins here and hides the rest of the production: blanks between slashes make them modules, "
             "as in 'F / / F'";
-        is_sure ? mistakes_.error(at_, message) : mistakes_.warning(at_, message);
+        is_sure ? mistakes_.error(at_, message) : mistakes_.insist(at_, message);
     }
 
     void copy() {

@@ -9,8 +9,8 @@
 
 namespace espalier::language {
 
-void Findings::warn(const Place& place, std::string message) {
-    found_.push_back({Diagnostic::Severity::warning, place, std::move(message), source_line(place)});
+void Findings::add(const Place& place, std::string message, bool insistent) {
+    found_.push_back({Diagnostic::Severity::warning, place, std::move(message), source_line(place), insistent});
 }
 
 std::vector<Diagnostic> Findings::in_order() {

@@ -9,7 +9,8 @@
 
 namespace espalier::language {
 
-ModelUses::ModelUses(const Model& model) : model_(model) {
+ModelUses::ModelUses(const Model& model, const std::set<LetterId>& inserted)
+    : model_(model), produced_(inserted), reached_(inserted) {
     for (const LSystem& system : model_.systems) collect(system);
     reach();
     for (const LSystem& system : model_.systems) {
@@ -29,9 +30,12 @@ void ModelUses::collect(const LSystem& system) {
         }
         for (const auto* part : {&production.left, &production.strict, &production.right}) {
             for (const ModulePattern& pattern : *part) {
-                if (!pattern.skip_branch) mentioned_.insert(model_.alphabet.symbol_of(pattern.letter));
+                if (pattern.skip_branch) continue;
+                mentioned_.insert(model_.alphabet.symbol_of(pattern.letter));
+                matched_.insert(pattern.letter);
             }
         }
+        for (const ModulePattern& pattern : production.strict) rewritten_.insert(pattern.letter);
     });
     mentioned_.insert(system.filtered.begin(), system.filtered.end());
 }
@@ -67,6 +71,14 @@ void ModelUses::collect_call(const ModuleTemplate& module) {
 bool ModelUses::is_produced(SymbolId symbol) const {
     return std::any_of(produced_.begin(), produced_.end(),
                        [&](LetterId letter) { return alphabet().symbol_of(letter) == symbol; });
+}
+
+std::set<int> ModelUses::rewritten_arities(SymbolId symbol) const {
+    std::set<int> arities;
+    for (const LetterId letter : rewritten_) {
+        if (alphabet().symbol_of(letter) == symbol) arities.insert(alphabet().arity(letter));
+    }
+    return arities;
 }
 
 bool ModelUses::is_word(const Production& production) const {

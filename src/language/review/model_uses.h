@@ -20,16 +20,20 @@ void for_each_production(const LSystem& system, Visit&& visit) {
 
 class ModelUses {
 public:
-    explicit ModelUses(const Model& model);
+    ModelUses(const Model& model, const std::set<LetterId>& inserted);
 
     const Model& model() const { return model_; }
     const Alphabet& alphabet() const { return model_.alphabet; }
 
-    /// Letters of the axioms and successors.
+    /// Letters of the axioms, of successors, and of what is inserted.
     const std::set<LetterId>& produced() const { return produced_; }
     /// Those of them that some axiom leads to.
     const std::set<LetterId>& reached() const { return reached_; }
     bool is_produced(SymbolId symbol) const;
+    /// Does a predecessor or a context name it with this number of parameters?
+    bool is_matched(LetterId letter) const { return matched_.contains(letter); }
+    /// The numbers of parameters with which predecessors name it.
+    std::set<int> rewritten_arities(SymbolId symbol) const;
     /// Does a predecessor, a context, or a list of ignored modules name it?
     bool is_mentioned(SymbolId symbol) const { return mentioned_.contains(symbol); }
 
@@ -68,7 +72,7 @@ private:
     static constexpr std::size_t shortest_word = 3;
 
     const Model& model_;
-    std::set<LetterId> produced_, reached_;
+    std::set<LetterId> produced_, reached_, matched_, rewritten_;
     std::set<SymbolId> mentioned_;
     std::map<std::string, Place> called_;
     bool calls_any_ = false;

@@ -1,8 +1,10 @@
 // Strings of modules: brackets, polygons, and modules that nothing knows.
 #include "base/text.h"
+#include "language/parser/lookalikes.h"
 #include "language/review/parts.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <string_view>
@@ -27,13 +29,12 @@ void ModuleReview::review_brackets(const std::vector<ModuleTemplate>& modules, c
         if (module.letter == Alphabet::open_bracket) open.push_back(&module);
         if (module.letter != Alphabet::close_bracket) continue;
         if (open.empty()) {
-            findings_.warn(module.place, fmt::format("this ']' closes no branch of this {}", where));
+            branches_.unopened.emplace_back(module.place, where);
             return;
         }
         open.pop_back();
     }
-    if (!open.empty())
-        findings_.warn(open.back()->place, fmt::format("this branch is not closed in this {}: ']' is missing", where));
+    if (!open.empty()) branches_.unclosed.emplace_back(open.back()->place, where);
 }
 
 // A production that replaces a '{' or '}' may leave one without its counterpart.
@@ -58,21 +59,31 @@ void ModuleReview::review_polygons(const std::vector<ModuleTemplate>& modules, c
             }
             open.push_back(&module);
         }
-        if (symbol == "}" && open.empty() && !may_close) unopened_.emplace_back(module.place, where);
+        if (symbol == "}" && open.empty() && !may_close) polygons_.unopened.emplace_back(module.place, where);
         if (symbol == "}" && !open.empty()) open.pop_back();
     }
-    if (!open.empty() && !is_nested && !may_stay_open) unclosed_.emplace_back(open.back()->place, where);
+    if (!open.empty() && !is_nested && !may_stay_open) polygons_.unclosed.emplace_back(open.back()->place, where);
 }
 
-// A polygon may be opened by one production and closed by another.
-void ModuleReview::review_ends_of_polygons() {
-    if (!unclosed_.empty() && !unopened_.empty()) return;
-    for (const auto& [place, where] : unclosed_) {
-        findings_.warn(place,
-                       fmt::format("this polygon is not closed in this {}, nor elsewhere: '}}' is missing", where));
+// What one production opens, another may close: that is seldom meant of branches, and yet may be.
+void ModuleReview::review_ends() {
+    const bool may_match = !branches_.unclosed.empty() && !branches_.unopened.empty();
+    const auto tell = [&](const Place& place, std::string message) {
+        may_match ? findings_.warn(place, std::move(message)) : findings_.insist(place, std::move(message));
+    };
+    for (const auto& [place, where] : branches_.unclosed) {
+        tell(place, fmt::format("this branch is not closed in this {}: ']' is missing", where));
     }
-    for (const auto& [place, where] : unopened_) {
-        findings_.warn(place, fmt::format("this '}}' closes no polygon of this {}, nor of others", where));
+    for (const auto& [place, where] : branches_.unopened) {
+        tell(place, fmt::format("this ']' closes no branch of this {}", where));
+    }
+    if (!polygons_.unclosed.empty() && !polygons_.unopened.empty()) return;
+    for (const auto& [place, where] : polygons_.unclosed) {
+        findings_.insist(place,
+                         fmt::format("this polygon is not closed in this {}, nor elsewhere: '}}' is missing", where));
+    }
+    for (const auto& [place, where] : polygons_.unopened) {
+        findings_.insist(place, fmt::format("this '}}' closes no polygon of this {}, nor of others", where));
     }
 }
 
@@ -82,21 +93,71 @@ void ModuleReview::review_symbols(const std::vector<ModuleTemplate>& modules) {
         const std::string& symbol = uses_.alphabet().name(letter);
         if (const std::size_t length = uses_.has_words() ? uses_.word_length(modules, i) : 0; length > 0) {
             i += length - 1;
-        } else if (symbol == "'") {
+        } else if (symbol == "'" || !lookalike(symbol).empty()) {
             // The reader has said so.
         } else if (symbol == "?" && uses_.alphabet().arity(letter) == 0) {
             i += review_question(modules, i);
         } else if (symbol == "~") {
             ++i;  // the name of a surface
         } else if (const std::size_t drawn = turtle_symbol_length(modules, i); drawn > 0) {
+            note_use(modules, i + drawn - 1, word(modules, i, drawn));
             i += drawn - 1;
-        } else if (!turtle_symbols_.empty() && !is_known(symbol) && reported_.insert(letter).second) {
-            findings_.warn(modules[i].place,
-                           fmt::format("{} has no effect: no production names it and the turtle does not "
-                                       "know it",
-                                       uses_.described(letter)));
+        } else if (!turtle_.empty() && !is_known(symbol)) {
+            if (!reported_.insert(letter).second) continue;
+            std::string message = fmt::format(
+                "{} has no effect: no production names it and the turtle does not know it", uses_.described(letter));
+            const bool is_typed = static_cast<unsigned char>(symbol.front()) < 0x80;
+            is_typed ? findings_.warn(modules[i].place, std::move(message))
+                     : findings_.insist(modules[i].place, std::move(message));
+        } else {
+            note_use(modules, i, symbol);
         }
     }
+}
+
+void ModuleReview::note_use(const std::vector<ModuleTemplate>& modules, std::size_t last, const std::string& symbol) {
+    const ModuleTemplate& module = modules[last];
+    if (module.arguments.empty() || symbol.front() == '?') return;
+    uses_of_parameters_.try_emplace(module.letter, module.place, symbol);
+}
+
+// F(1, 5) is another module than F(1), and A(1, 5) than A(1). A module without parameters is often meant to be one.
+void ModuleReview::review_numbers_of_parameters() {
+    for (const auto& [letter, use] : uses_of_parameters_) {
+        if (uses_.is_matched(letter)) continue;
+        const std::string reason = why_untaken(letter, use.second);
+        if (reason.empty()) continue;
+        findings_.insist(
+            use.first, fmt::format("'{}' {} {}", use.second, with_parameters(uses_.alphabet().arity(letter)), reason));
+    }
+}
+
+/// What is odd about a letter that no predecessor or context names; empty: nothing is.
+std::string ModuleReview::why_untaken(LetterId letter, const std::string& symbol) const {
+    const int arity = uses_.alphabet().arity(letter);
+    std::set<int> others = uses_.rewritten_arities(uses_.alphabet().symbol_of(letter));
+    others.erase(0);
+    const auto drawn = turtle_.find(symbol);
+    if (drawn == turtle_.end()) {
+        if (others.empty()) return "";
+        return fmt::format("is taken by no production; those for '{}' take {}", symbol, fmt::join(others, " or "));
+    }
+    const std::vector<int>& taken = drawn->second;
+    if (!taken.empty() && std::find(taken.begin(), taken.end(), arity) == taken.end()) {
+        return fmt::format("means nothing to the turtle, which takes {}", fmt::join(taken, " or "));
+    }
+    // What acts on any number of parameters reads the first, but for cross-sections, deformations, labels and polygons.
+    const bool reads_one = taken.empty() && symbol.size() == 1 && symbol != "{" && symbol != "}" && symbol != ".";
+    if (!reads_one || arity == 1) return "";
+    for (const auto& [other, use] : uses_of_parameters_) {
+        const bool is_same = use.second == symbol && other != letter;
+        if (is_same) others.insert(uses_.alphabet().arity(other));
+    }
+    others.erase(arity);
+    if (others.empty()) return "";
+    return fmt::format(
+        "is another module than {}, and of its parameters only the first means something: is a ',' a '.'?",
+        fmt::format("'{}' {}", symbol, with_parameters(*others.begin())));
 }
 
 // `?` asks the environment (?E), the turtle (?P ?H ?L ?U ?Q), or a process the model declares. Returns how many modules
@@ -115,8 +176,8 @@ std::size_t ModuleReview::review_question(const std::vector<ModuleTemplate>& mod
     if (asked.empty()) {
         findings_.warn(modules[i].place, "this query names no process");
     } else {
-        findings_.warn(modules[i].place, fmt::format("no process answers '?{0}': declare 'environment {0};'{1}", asked,
-                                                     meant_process(asked)));
+        findings_.insist(modules[i].place, fmt::format("no process answers '?{0}': declare 'environment {0};'{1}",
+                                                       asked, meant_process(asked)));
     }
     return std::max<std::size_t>(1, asked.size());
 }
@@ -138,7 +199,7 @@ bool ModuleReview::is_known(const std::string& symbol) const {
     if (uses_.is_mentioned(*uses_.alphabet().find_symbol(symbol)) || symbol.front() == '?') return true;
     if (symbol == "[" || symbol == "]" || symbol == "%") return true;
     if (symbol == "$" && (uses_.calls_any() || !uses_.called().empty())) return true;
-    return std::find(turtle_symbols_.begin(), turtle_symbols_.end(), symbol) != turtle_symbols_.end();
+    return turtle_.contains(symbol);
 }
 
 std::string ModuleReview::word(const std::vector<ModuleTemplate>& modules, std::size_t begin,
@@ -151,9 +212,12 @@ std::string ModuleReview::word(const std::vector<ModuleTemplate>& modules, std::
 // How many modules from `i` on spell a symbol of the turtle, such as @o or @Gs; the longest counts.
 std::size_t ModuleReview::turtle_symbol_length(const std::vector<ModuleTemplate>& modules, std::size_t i) const {
     std::size_t longest = 0;
+    std::string spelt;
     for (std::size_t length = 1; length <= std::min<std::size_t>(4, modules.size() - i); ++length) {
-        const auto last = turtle_symbols_.end();
-        if (std::find(turtle_symbols_.begin(), last, word(modules, i, length)) != last) longest = length;
+        spelt += uses_.alphabet().name(modules[i + length - 1].letter);
+        const auto next = turtle_.lower_bound(spelt);
+        if (next == turtle_.end() || !next->first.starts_with(spelt)) break;
+        if (next->first == spelt) longest = length;
     }
     return longest;
 }

@@ -4,6 +4,7 @@
 #include "language/review/findings.h"
 #include "language/review/model_uses.h"
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -23,13 +24,17 @@ void review_rules(const std::vector<Production>& productions, bool stochastic, c
 /// Strings of modules: brackets, polygons, and modules that nothing knows.
 class ModuleReview {
 public:
-    ModuleReview(const ModelUses& uses, const std::vector<std::string>& turtle_symbols, Findings& findings)
-        : uses_(uses), turtle_symbols_(turtle_symbols), findings_(findings) {}
+    /// `turtle`: its symbols, with the numbers of parameters on which they act.
+    using TurtleSymbols = std::map<std::string, std::vector<int>, std::less<>>;
+    ModuleReview(const ModelUses& uses, const TurtleSymbols& turtle, Findings& findings)
+        : uses_(uses), turtle_(turtle), findings_(findings) {}
 
     void review_axiom(const std::vector<ModuleTemplate>& axiom);
     void review_successor(const Production& production);
-    /// After all strings: polygons that no string of the model closes or opens.
-    void review_ends_of_polygons();
+    /// After all strings: branches and polygons that no string of the model closes or opens.
+    void review_ends();
+    /// After all strings: modules with a number of parameters that neither productions nor the turtle take.
+    void review_numbers_of_parameters();
     /// Productions that replace a part of a turtle symbol, too.
     void review_symbol_parts(const LSystem& system);
 
@@ -40,10 +45,17 @@ private:
         std::map<LetterId, std::string> parts;
     };
 
+    /// Where strings do not match: each with the kind of string.
+    struct Ends {
+        std::vector<std::pair<Place, const char*>> unclosed, unopened;
+    };
+
     void review_brackets(const std::vector<ModuleTemplate>& modules, const char* where);
     void review_polygons(const std::vector<ModuleTemplate>& modules, const char* where,
                          const std::vector<ModulePattern>& replaced);
     void review_symbols(const std::vector<ModuleTemplate>& modules);
+    void note_use(const std::vector<ModuleTemplate>& modules, std::size_t last, const std::string& symbol);
+    std::string why_untaken(LetterId letter, const std::string& symbol) const;
     std::size_t review_question(const std::vector<ModuleTemplate>& modules, std::size_t i);
     std::string meant_process(const std::string& asked) const;
     void review_symbol_parts(const std::vector<Production>& productions, const SymbolParts& parts);
@@ -55,11 +67,12 @@ private:
     bool is_known(const std::string& symbol) const;
 
     const ModelUses& uses_;
-    const std::vector<std::string>& turtle_symbols_;
+    const TurtleSymbols& turtle_;
     Findings& findings_;
     std::set<LetterId> reported_;
-    /// Where a string has no '}' for a '{', or no '{' for a '}', with the kind of string.
-    std::vector<std::pair<Place, const char*>> unclosed_, unopened_;
+    Ends branches_, polygons_;
+    /// The first place of each letter with parameters, and the symbol that it ends: "@R" of R.
+    std::map<LetterId, std::pair<Place, std::string>> uses_of_parameters_;
 };
 
 /// Which modules contexts consider.

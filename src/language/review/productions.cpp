@@ -1,5 +1,6 @@
 // Productions: those that can never apply, words that are not declared, and weights.
 #include "language/parser/constant.h"
+#include "language/parser/label.h"
 #include "language/review/parts.h"
 
 #include <fmt/format.h>
@@ -44,24 +45,60 @@ private:
         for (const auto* part : {&production.strict, &production.left, &production.right}) {
             for (const ModulePattern& pattern : *part) {
                 if (pattern.skip_branch || uses_.reached().contains(pattern.letter)) continue;
-                const std::string letter = uses_.described(pattern.letter);
-                findings_.warn(
-                    pattern.place,
-                    uses_.produced().contains(pattern.letter)
-                        ? fmt::format(
-                              "this production can never apply: {} is produced, but only by productions that no "
-                              "axiom leads to",
-                              letter)
-                        : fmt::format("this production can never apply: nothing produces {}{}", letter,
-                                      why_not(pattern.letter)));
-                return;
+                return tell_unreached(production, pattern);
             }
         }
         if (uses_.model().arithmetic == Arithmetic::cpfg) review_left_brackets(production);
         if (!production.condition) return;
+        const Place& place = production.condition->place;
         const std::optional<double> value = constant_value(*production.condition);
-        if (value == 0)
-            findings_.warn(production.condition->place, "this production can never apply: its condition is always 0");
+        if (value == 0) findings_.warn(place, "this production can never apply: its condition is always 0");
+        // A switch, as of a #define, is 0 or 1 or compares something.
+        const bool is_number = production.condition->kind == Expression::Kind::number;
+        if (is_number && value != 0 && value != 1) {
+            findings_.insist(place,
+                             fmt::format("this condition is the number {0:g}, so it always holds: is it a probability? "
+                                         "A weight stands behind the successor, '--> ... : {0:g}', and needs a line "
+                                         "'seed: 1' in the header",
+                                         *value));
+        }
+    }
+
+    void tell_unreached(const Production& production, const ModulePattern& pattern) {
+        const std::string letter = uses_.described(pattern.letter);
+        const std::string label = label_of(production);
+        const std::optional<int> other = other_arity(pattern.letter);
+        if (uses_.produced().contains(pattern.letter)) {
+            findings_.warn(pattern.place,
+                           fmt::format("this production can never apply: {} is produced, but only by productions that "
+                                       "no axiom leads to",
+                                       letter));
+        } else if (!label.empty()) {
+            findings_.insist(production.place,
+                             fmt::format("'{0}' is read as the modules that this production replaces, and nothing "
+                                         "produces them. If it is a label: productions have none, so leave '{0}:' away",
+                                         label));
+        } else if (other) {
+            findings_.insist(pattern.place,
+                             fmt::format("this production can never apply: nothing produces {} (only {})", letter,
+                                         with_parameters(*other)));
+        } else {
+            findings_.warn(pattern.place,
+                           fmt::format("this production can never apply: nothing produces {}; if it waits for a mouse, "
+                                       "--insert puts modules into a string",
+                                       letter));
+        }
+    }
+
+    /// "p1" of 'p1: A --> B', as productions are numbered in books; empty: there is no such thing.
+    std::string label_of(const Production& production) const {
+        if (!production.condition || !production.left.empty() || !production.right.empty()) return "";
+        std::string label;
+        for (const ModulePattern& pattern : production.strict) {
+            if (uses_.alphabet().arity(pattern.letter) > 0) return "";
+            label += uses_.alphabet().name(pattern.letter);
+        }
+        return is_label(label) ? label : "";
     }
 
     void review_left_brackets(const Production& production) {
@@ -129,13 +166,13 @@ private:
         }
     }
 
-    std::string why_not(LetterId letter) const {
+    /// Another number of parameters with which the symbol is produced.
+    std::optional<int> other_arity(LetterId letter) const {
         for (const LetterId other : uses_.produced()) {
-            if (uses_.alphabet().symbol_of(other) == uses_.alphabet().symbol_of(letter)) {
-                return fmt::format(" (only {})", with_parameters(uses_.alphabet().arity(other)));
-            }
+            if (uses_.alphabet().symbol_of(other) != uses_.alphabet().symbol_of(letter)) continue;
+            return uses_.alphabet().arity(other);
         }
-        return "; if it waits for a mouse, --insert puts modules into a string";
+        return std::nullopt;
     }
 
     const ModelUses& uses_;
@@ -154,9 +191,9 @@ void review_word(const Production& production, const ModelUses& uses, std::set<s
     const std::vector<std::string> parameters(first, first + uses.alphabet().arity(last.letter));
     const std::string declared = parameters.empty() ? name : fmt::format("{}({})", name, fmt::join(parameters, ", "));
     if (!known.insert(name).second) return;
-    findings.warn(production.place, fmt::format("'{}' is read as {} modules of one letter each: 'module {};' before "
-                                                "'lsystem:' makes it one module",
-                                                name, production.strict.size(), declared));
+    findings.insist(production.place, fmt::format("'{}' is read as {} modules of one letter each: 'module {};' before "
+                                                  "'lsystem:' makes it one module",
+                                                  name, production.strict.size(), declared));
 }
 
 }  // namespace

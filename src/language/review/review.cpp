@@ -5,10 +5,10 @@
 
 namespace espalier::language {
 
-std::vector<Diagnostic> review(const Model& model, const std::vector<std::string>& turtle_symbols) {
+std::vector<Diagnostic> review(const Model& model, const ReviewOptions& options) {
     Findings findings;
-    const ModelUses uses(model);
-    ModuleReview modules(uses, turtle_symbols, findings);
+    const ModelUses uses(model, options.inserted);
+    ModuleReview modules(uses, options.turtle, findings);
     review_words(uses, findings);
     const auto review_set = [&](const std::vector<Production>& productions, bool stochastic) {
         review_rules(productions, stochastic, uses, findings);
@@ -24,7 +24,8 @@ std::vector<Diagnostic> review(const Model& model, const std::vector<std::string
         review_statements(system, findings);
         modules.review_symbol_parts(system);
     }
-    modules.review_ends_of_polygons();
+    modules.review_ends();
+    modules.review_numbers_of_parameters();
     review_processes(uses, findings);
     review_calls(uses, findings);
     return findings.in_order();

@@ -63,6 +63,7 @@ public:
             end_failed(error.what());
             throw;
         }
+        if (!cut_short) review();
         const std::string exit = cut_short ? "interrupted" : "done";
         write_record(exit);
         if (timeline_ && !cut_short) remove_checkpoint();
@@ -79,6 +80,11 @@ public:
 private:
     static std::filesystem::path files_folder(const RunOptions& options) {
         return options.output.empty() ? std::filesystem::path() : files_folder_of(options.output);
+    }
+
+    void review() {
+        world_.review_run();
+        warn();
     }
 
     // Tells the new warnings.

@@ -1,6 +1,7 @@
 #include "simulation/scene/plant_table.h"
 
 #include "espalier/base/random.h"
+#include "espalier/turtle/symbol.h"
 
 #include "simulation/object/side_files.h"
 #include "simulation/scene/keyframes.h"
@@ -111,6 +112,12 @@ GeometryStages read_stages(const Settings& table) {
     return stages;
 }
 
+/// What looks wrong in a plant's model, which may be legal all the same.
+std::vector<Diagnostic> review_of(const Plant& plant, const Insertions& insertions) {
+    static const auto turtle = symbol_arities();
+    return language::review(source_of(*plant.model), {turtle, insertions.letters()});
+}
+
 struct ModelKey {
     std::filesystem::path path;
     Defines defines;
@@ -151,7 +158,7 @@ public:
         for (const std::string& text : table.texts_or("insert", {})) {
             plant.insertions.push_back(read_insertion(text, table.place("insert")));
         }
-        [[maybe_unused]] const Insertions must_fit(plant);
+        review(plant, Insertions(plant));
         plant.turtle = read_turtle(table.table("turtle"), viewed(plant));
         plant.stages = read_stages(table);
         if (!keyframes.empty()) read_drawing_in_time(table, keyframes, plant);
@@ -170,6 +177,12 @@ public:
     }
 
 private:
+    void review(const Plant& plant, const Insertions& insertions) {
+        if (!reviewed_.insert(plant.model.get()).second) return;
+        const std::vector<Diagnostic> found = review_of(plant, insertions);
+        notes_.diagnostics.insert(notes_.diagnostics.end(), found.begin(), found.end());
+    }
+
     static void require_file(const Settings& table, const char* key) {
         if (std::filesystem::exists(table.path(key))) return;
         throw UserError(table.place(key), fmt::format("there is no {} {}", key, table.path(key).string()));
@@ -291,6 +304,7 @@ private:
     SideFiles side_files_;
     std::set<std::string> names_;
     std::map<ModelKey, std::shared_ptr<const CompiledModel>> models_;
+    std::set<const CompiledModel*> reviewed_;
 };
 
 }  // namespace

@@ -162,6 +162,7 @@ void GrowingPlant::interpret(const FieldValues& fields, double time) {
     espalier::interpret(model(), *symbols_, *string, turtle_now ? *turtle_now : description->turtle, pictures,
                         {number, &fields}, result);
     asks_ = result.asks();
+    has_shown_ = has_shown_ || !result.queries.empty() || !result.geometry.is_empty();
     if (is_plain_ || description->stages.empty()) return;
     Interpretation& staged = staged_.for_writing();
     staged = result;

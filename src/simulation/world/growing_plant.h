@@ -57,6 +57,8 @@ public:
     const ModuleString* string_before() const { return keeps_previous_ ? &*previous_ : nullptr; }
     /// The turtle or a process, in this step.
     bool asks() const { return asks_; }
+    /// It has drawn something or asked a process, in this step or before, on this rank and since a restart.
+    bool has_shown() const { return has_shown_; }
     PlantView view() const { return {number, &model(), &*string, &*interpretation, asks_, &drawn().geometry}; }
     /// After `string` and `interpretation` came from the rank that holds the plant.
     void note_received();
@@ -94,6 +96,7 @@ private:
     void rewrite(const Rewrite& rewrite, ModuleString* spare);
 
     bool asks_ = false;
+    bool has_shown_ = false;
     bool is_staged_ = false;  ///< what is drawn of this step is in staged_
     /// Without pictures and stages, and nothing of it changes with time: most of its description is never read.
     bool is_plain_;

@@ -121,6 +121,12 @@ Insertions::Insertions(const Plant& plant)
     }
 }
 
+std::set<LetterId> Insertions::letters() const {
+    std::set<LetterId> letters;
+    for (const Modules& modules : all_) letters.insert(modules.letters.begin(), modules.letters.end());
+    return letters;
+}
+
 void Insertions::apply(int step, ModuleString& string) const {
     for (std::size_t i = 0; i < all_.size(); ++i) {
         if (all_[i].insertion->step == step) put(all_[i], i, place_of(*all_[i].insertion, string), string);

@@ -4,6 +4,7 @@
 #include "espalier/lsystem/module_string.h"
 #include "espalier/simulation/scene.h"
 
+#include <set>
 #include <vector>
 
 namespace espalier::simulation {
@@ -18,6 +19,7 @@ public:
     /// Throws UserError for modules that the model does not know.
     explicit Insertions(const Plant& plant);
 
+    std::set<LetterId> letters() const;
     /// Those of the step. The modules are born in it, of no parent. Throws UserError if there is no such place.
     void apply(int step, ModuleString& string) const;
 

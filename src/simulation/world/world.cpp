@@ -172,6 +172,7 @@ void World::State::interpret(std::span<GrowingPlant> some) {
                         });
         fields.forget();  // so that processes may write the next values over these
         memory.check_drawn(plants, step);
+        warn_of_ignored();
     });
 }
 
@@ -408,6 +409,7 @@ void World::State::restore(std::istream& in) {
     fields.restore(in);
     has_restored_fields = true;
     step = saved;
+    is_whole = false;
     note_ends();
     memory.check_drawn(plants, step);
 }
@@ -426,6 +428,10 @@ bool World::at_end() const {
 
 bool World::stopped() const {
     return state_->stopped;
+}
+
+void World::review_run() {
+    state_->review_run();
 }
 
 std::size_t World::modules() const {

@@ -60,6 +60,7 @@ World::State::State(const Scene& described, std::size_t bytes, const std::filesy
     share_out_memory();
     make_plants(files);
     find_fields_read();
+    warn_of_unasked();
     set_lengths();
     if (!ranks) return;
     spread = std::make_unique<Spread>(*ranks, scene, *environment, fields_read);
@@ -106,6 +107,7 @@ void World::State::make_plants(const std::filesystem::path& files) {
         if (!table) {
             table = symbol_table(model);
             warn_of_likely_names(model, plant.name);
+            known_models.push_back({&model, table});
             exchanges = exchanges || has_queries(model.alphabet);
         }
         const auto number = static_cast<std::uint32_t>(plants.size());

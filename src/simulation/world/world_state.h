@@ -17,6 +17,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -85,6 +86,12 @@ struct World::State {
     void note_ends();
     void place_births();
     void find_fields_read();
+    void warn(Diagnostic warning);
+    void warn_of_unasked();
+    void warn_of_ignored();
+    void warn_of_undrawn();
+    void warn_of_never_asked();
+    void review_run();
     void take_fields();
     void store_answers();
     void exchange();
@@ -105,6 +112,13 @@ struct World::State {
     std::vector<std::string> fields_read;  ///< by turtles
     FieldValues fields;                    ///< while turtles walk, and after a restart until then
     bool has_restored_fields = false;
+    bool is_whole = true;  ///< it has seen all steps of the run
+    struct KnownModel {
+        const Model* model;
+        std::shared_ptr<const SymbolTable> symbols;
+        unsigned ignored = 0;  ///< by turtles, and told
+    };
+    std::vector<KnownModel> known_models;
     std::vector<Recorder*> recorders;
     bool gets_only_pieces = false;                    ///< the recorder, as another rank has the run's
     std::optional<Recorded> recorded;                 ///< by the first rank; asked for once
@@ -119,6 +133,7 @@ struct World::State {
     bool stopped = false;
     StageTimes times;
     std::vector<Diagnostic> warnings;
+    std::set<std::string> warned;  ///< what warn() has said
 };
 
 }  // namespace espalier::simulation

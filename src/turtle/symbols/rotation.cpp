@@ -15,12 +15,14 @@ void set_heading(Walk& walk, std::span<const double> parameters) {
     }
     const glm::dvec3 heading(parameters[0], parameters[1], parameters.size() > 2 ? parameters[2] : 0);
     walk.set_heading(heading);
-    if (parameters.size() < 6) return;
-    // An up vector counts only if it is perpendicular to the heading, as in cpfg.
+    if (parameters.size() < 4) return;
+    if (parameters.size() < 6) return walk.ignore(Ignored::up_vector);
+    // An up vector counts only if it is perpendicular to the heading, as in cpfg. One of zeros is none.
     const glm::dvec3 up(parameters[3], parameters[4], parameters[5]);
     const double length = glm::length(up);
     Pose& pose = walk.turtle().pose;
-    if (length == 0 || std::abs(glm::dot(up / length, pose.heading)) > 1e-9) return;
+    if (length == 0) return;
+    if (std::abs(glm::dot(up / length, pose.heading)) > 1e-9) return walk.ignore(Ignored::up_vector);
     pose.up = up / length;
     pose.left = glm::cross(pose.heading, pose.up);
 }
@@ -99,7 +101,7 @@ const Registered<SymbolGroup> rotation_group{
      "Heading, left and up are H = (0, 1, 0), L = (-1, 0, 0) and U = (0, 0, -1) at the beginning, so that "
      "U = L x H.\n"
      "@R leaves z out as 0; a zero vector means straight up. Up is set only if it is perpendicular to the "
-     "heading; otherwise the turtle twists least.",
+     "heading, within 1e-9; otherwise the turtle twists least, and a warning says so.",
      "axiom: !(0.06) F(1) [+(30) F(1)] [-(30) F(1)] /(90) [&(50) F(1)] [^(50) F(1)] \\(45) F(1) @R(1, 0, 0) F(1)"}};
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace {
 
 void increase(Walk& walk, std::span<const double> parameters, double sign) {
     double* elasticity = walk.elasticity(parameters[0]);
-    if (!elasticity) return;
+    if (!elasticity) return walk.ignore(Ignored::tropism);
     const auto index = std::size_t(elasticity - walk.elasticities.data());
     *elasticity += sign * (parameters.size() > 1 ? parameters[1] : walk.settings().tropisms[index].elasticity_step);
 }
@@ -76,7 +76,8 @@ const Registered<Symbol> along_field{
 
 const Registered<Symbol> set_elasticity{
     {"@Ts", {2}, "@Ts(tropism, elasticity): set the elasticity", [](Walk& walk, std::span<const double> parameters) {
-         if (double* elasticity = walk.elasticity(parameters[0])) *elasticity = parameters[1];
+         double* const elasticity = walk.elasticity(parameters[0]);
+         elasticity ? void(*elasticity = parameters[1]) : walk.ignore(Ignored::tropism);
      }}};
 
 const Registered<Symbol> more{{"@Ti",

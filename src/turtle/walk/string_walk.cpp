@@ -42,6 +42,7 @@ void StringWalk::begin(const WalkInput& input, Interpretation& result, const Wal
     offsets_.clear();
     walk_.begin(input.model, input.string, input.settings, input.plant, result, room);
     walk_.processes_ = &input.symbols.processes;
+    walk_.ignored_ = &input.symbols.ignored;
     walk_.fields_ = input.fields;
 }
 

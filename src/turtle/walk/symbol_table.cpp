@@ -38,6 +38,12 @@ bool Symbol::accepts(int arity) const {
     return arities.empty() || std::find(arities.begin(), arities.end(), arity) != arities.end();
 }
 
+std::map<std::string, std::vector<int>, std::less<>> symbol_arities() {
+    std::map<std::string, std::vector<int>, std::less<>> arities;
+    for (const auto& [name, symbol] : registered<Symbol>()) arities[name] = symbol->arities;
+    return arities;
+}
+
 SymbolTable::SymbolTable(const Model& model) : processes(model.alphabet.size(), -1), pictured(model.alphabet.size()) {
     add_level(model.alphabet, "");
 

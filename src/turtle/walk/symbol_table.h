@@ -49,6 +49,8 @@ public:
     bool pictures_look_around = false;
     /// Set once a string of this model could not be walked by several threads: then all are walked in one piece.
     mutable std::atomic<bool> unpredictable = false;
+    /// What was ignored in strings of this model so far, as bits of `Ignored`.
+    mutable std::atomic<unsigned> ignored = 0;
 
 private:
     std::uint16_t add_level(const Alphabet& alphabet, const std::string& beginning);

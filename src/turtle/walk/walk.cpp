@@ -313,6 +313,11 @@ void Walk::answer_with(const std::array<double, 4>& values, std::size_t count) {
     directions_->push_back({parameters_at_, count, values});
 }
 
+void Walk::ignore(Ignored what) const {
+    const auto bit = static_cast<unsigned>(what);
+    if (ignored_ && !(ignored_->load(std::memory_order_relaxed) & bit)) ignored_->fetch_or(bit);
+}
+
 const std::string& Walk::symbol() const {
     return model_->alphabet.name(letter_);
 }
