@@ -118,3 +118,26 @@ TEST_CASE_METHOD(Resumed, "what cannot go on is refused in words", "[app]") {
     fs::remove(path() / "again" / "checkpoint");
     CHECK_THAT(run("resume again").err, Contains("has no checkpoint"));
 }
+
+TEST_CASE_METHOD(Resumed, "a run goes on through no link in its folder, and replaces none", "[app]") {
+    write("short.toml", lit + std::string("skeleton = false\n"));
+    REQUIRE(run("run short.toml --quiet --output linked --disk 1K --checkpoint-every 2").code == 2);
+    REQUIRE(fs::exists(path() / "linked/checkpoint"));
+    fs::create_directory(path() / "theirs");
+    const std::string rows = text_of(path() / "linked/statistics.csv") + "theirs\n";
+    write("theirs/statistics.csv", rows);
+    write("theirs/0001.vti", "theirs");
+    fs::remove(path() / "linked/statistics.csv");
+    fs::create_symlink(path() / "theirs/statistics.csv", path() / "linked/statistics.csv");
+    const Outcome continued = run("resume linked");
+    CHECK(continued.code == 2);
+    CHECK_THAT(continued.err, Contains("statistics.csv: it is a link, which is not followed for writing"));
+    fs::remove_all(path() / "linked/fields/light");
+    fs::create_directory_symlink(path() / "theirs", path() / "linked/fields/light");
+    fs::create_directory_symlink(path() / "theirs", path() / "linked/files");
+    const Outcome replaced = run("run short.toml --output linked --overwrite");
+    CHECK(replaced.code == 2);
+    CHECK_THAT(replaced.err, Contains("light is a link, which is not followed for writing"));
+    CHECK(text_of(path() / "theirs/statistics.csv") == rows);
+    CHECK(text_of(path() / "theirs/0001.vti") == "theirs");
+}

@@ -5,6 +5,7 @@
 
 #include "app/command.h"
 #include "app/options.h"
+#include "base/folder.h"
 #include "base/number.h"
 #include "base/text.h"
 #include "field_profile.h"
@@ -178,11 +179,12 @@ private:
     }
 
     fs::path made_folder() const {
-        const fs::path folder = output_.empty() ? run_ / "analysis" : output_;
-        std::error_code error;
-        fs::create_directories(folder, error);
-        if (error) throw RunError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
-        return folder;
+        if (output_.empty()) {
+            make_folder_below(run_, "analysis");
+            return run_ / "analysis";
+        }
+        make_folder(output_);
+        return output_;
     }
 
     void write_profile(const RecordedRun& run, const RecordedTable& table) const {

@@ -11,6 +11,7 @@
 #include "app/model_library.h"
 #include "app/program_data.h"
 #include "app/temporary_folder.h"
+#include "base/folder.h"
 #include "base/platform.h"
 
 #include <fmt/format.h>
@@ -119,10 +120,16 @@ private:
             add_files(shared.path(), entries);
     }
 
+    // A link that is not offered, because it would be refused.
+    static bool leads_out(const fs::path& path, const fs::path& folder) {
+        std::error_code unknown;
+        return resolved_below(path, folder, unknown).empty();
+    }
+
     static void add_files(const fs::path& folder, std::vector<LibraryEntry>& entries) {
         std::error_code ignored;
         for (const auto& file : fs::directory_iterator(folder, ignored)) {
-            if (!file.is_regular_file(ignored)) continue;
+            if (!file.is_regular_file(ignored) || leads_out(file.path(), folder)) continue;
             if (!describes_scene(file.path()) && !describes_model(file.path())) continue;
             entries.push_back({file.path(),
                                file.path().stem().string(),
@@ -137,6 +144,7 @@ private:
         std::error_code ignored;
         std::set<fs::path> runs;
         for (const auto& inside : fs::directory_iterator(folder, ignored)) {
+            if (leads_out(inside.path(), folder)) continue;
             if (fs::is_regular_file(inside.path() / "run.json", ignored)) runs.insert(inside.path());
         }
         for (const fs::path& run : runs) {

@@ -9,6 +9,7 @@
 #include "app/command.h"
 #include "app/temporary_folder.h"
 #include "base/csv_file.h"
+#include "base/folder.h"
 #include "base/platform.h"
 #include "simulation/run/recorded_command.h"
 
@@ -56,9 +57,7 @@ public:
     std::size_t failed() const { return failed_; }
 
     void start(const SweepRun& run) {
-        std::error_code error;
-        fs::create_directories(run.folder, error);
-        if (error) throw RunError(fmt::format("cannot make the folder {}: {}", run.folder.string(), error.message()));
+        make_folder_below(run.folder.parent_path(), run.folder.filename());
         const std::vector<std::string> command = sweep_.command(run);
         running_[start_run({command.begin() + 2, command.end()}, fs::current_path(), sweep_.log(run))] = &run;
     }
