@@ -3,6 +3,7 @@
 
 #include "espalier/base/error.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <istream>
 #include <ostream>
@@ -22,6 +23,24 @@ T get(std::istream& in, T value = {}) {
     return value;
 }
 
+/// As many plain values as are claimed, making room as they come: what is not in the file takes no memory. False if the
+/// file ends too early.
+template <class Values>
+bool read_claimed(std::istream& in, Values& values, std::uint64_t claimed) {
+    constexpr std::uint64_t at_once = (std::uint64_t{1} << 24) / sizeof(values[0]);
+    values.clear();
+    while (values.size() < claimed) {
+        const std::size_t before = values.size();
+        const std::size_t more = std::min(claimed - before, std::max<std::uint64_t>(at_once, before));
+        values.resize(before + more);
+        if (!in.read(reinterpret_cast<char*>(values.data() + before),
+                     static_cast<std::streamsize>(more * sizeof(values[0])))) {
+            return false;
+        }
+    }
+    return true;
+}
+
 inline void put_text(std::ostream& out, const std::string& text) {
     put(out, static_cast<std::uint64_t>(text.size()));
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
@@ -31,8 +50,8 @@ inline void put_text(std::ostream& out, const std::string& text) {
 inline std::string get_text(std::istream& in, std::uint64_t most) {
     const auto size = get<std::uint64_t>(in);
     if (size > most) throw RunError("the checkpoint is damaged");
-    std::string text(size, '\0');
-    if (!in.read(text.data(), static_cast<std::streamsize>(size))) throw RunError("the checkpoint ends too early");
+    std::string text;
+    if (!read_claimed(in, text, size)) throw RunError("the checkpoint ends too early");
     return text;
 }
 
@@ -46,9 +65,7 @@ void put_column(std::ostream& out, const Values& values) {
 
 template <class Values>
 void get_column(std::istream& in, Values& values) {
-    values.resize(get<std::uint64_t>(in));
-    const auto bytes = static_cast<std::streamsize>(values.size() * sizeof(values[0]));
-    if (!in.read(reinterpret_cast<char*>(values.data()), bytes)) throw RunError("a column ends too early");
+    if (!read_claimed(in, values, get<std::uint64_t>(in))) throw RunError("a column ends too early");
 }
 
 inline void put_values(std::ostream& out, const std::vector<double>& values) {

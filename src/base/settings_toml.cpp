@@ -2,6 +2,7 @@
 #include "espalier/base/file.h"
 
 #include "base/text.h"
+#include "base/toml_words.h"
 #include "settings_node.h"
 
 #include <fmt/format.h>
@@ -76,15 +77,21 @@ std::shared_ptr<Node> parse(std::string_view text, const Origin& origin) {
     try {
         return convert(toml::parse(text, origin.name), origin);
     } catch (const toml::parse_error& error) {
-        throw UserError(place_of(error.source(), origin), std::string(error.description()),
-                        line_of(text, error.source().begin.line));
+        const std::string line = line_of(text, error.source().begin.line);
+        throw UserError(place_of(error.source(), origin), words_for_toml(error.description(), line), line);
     }
+}
+
+// Array jobs pad their numbers: 007 is no TOML, but means 7.
+std::string_view without_padding(std::string_view value) {
+    const bool is_whole = !value.empty() && value.find_first_not_of("0123456789") == std::string_view::npos;
+    return is_whole ? value.substr(std::min(value.find_first_not_of('0'), value.size() - 1)) : value;
 }
 
 // A value given on the command line: TOML if it reads as such, text otherwise.
 std::shared_ptr<Node> parse_value(std::string_view value, const Origin& origin) {
     try {
-        const toml::table table = toml::parse("value = " + std::string(value), origin.name);
+        const toml::table table = toml::parse("value = " + std::string(without_padding(value)), origin.name);
         if (table.size() == 1) return convert(*table.get("value"), origin);
     } catch (const toml::parse_error&) {
     }

@@ -212,6 +212,9 @@ double Machine::print(const PrintCall& call, const Place& place) {
                                     call.format.conversions(), values.size()));
     }
     const std::string text = call.format.fill(values);
+    if (text.size() > most_printed_at_once) {
+        throw EvaluationError(place, fmt::format("more than {} bytes are printed at once", most_printed_at_once));
+    }
     if (!call.file) {
         services_->print(text);
     } else if (const double file = registers_[*call.file]; !services_->files->print(file, text, place)) {
