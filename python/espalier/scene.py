@@ -127,7 +127,9 @@ class Scene:
     def _make(self):
         made_of = self._made_of
         overrides = _settings(made_of.get("set"))
-        self._scene = _espalier.Scene(made_of.get("path"), made_of["seed"], made_of.get("steps"), overrides)
+        self._scene = _espalier.Scene(
+            made_of.get("path"), made_of["seed"], made_of.get("steps"), overrides, made_of.get("trust", False)
+        )
         if "time" in made_of:
             self._scene.set_time(*made_of["time"])
         for plant in made_of.get("plants", ()):
@@ -162,10 +164,11 @@ class Scene:
         return html(self)
 
     @classmethod
-    def of(cls, scene, seed=None, steps=None, set=None):
+    def of(cls, scene, seed=None, steps=None, set=None, trust=False):
         """The scene itself, that of a Plant or a Model alone, or that of a file (.toml, or a model).
 
         set changes values of a file, as `--set` does: {"plant.0.define.ANGLE": 40, "environment.light.voxel": 0.5}.
+        trust: the environment programs that the file names may be started.
         """
         if isinstance(scene, cls):
             if seed is not None or set:
@@ -176,7 +179,7 @@ class Scene:
                 raise _espalier.Error("set changes the file of a scene; a Model takes its #defines: Model(file, ANGLE=40)")
             return cls(scene, seed=seed or 0, steps=steps)
         read = cls.__new__(cls)
-        read.__setstate__({"path": pathlib.Path(scene), "seed": seed, "steps": steps, "set": set})
+        read.__setstate__({"path": pathlib.Path(scene), "seed": seed, "steps": steps, "set": set, "trust": trust})
         return read
 
 

@@ -120,42 +120,83 @@ void remove_repeated(Findings& findings) {
     std::erase_if(findings.facts, [&](const auto& fact) { return !said.insert(fact).second; });
 }
 
-// True for a folder that is no object: it holds several models, or scenes, or folders with models.
-bool is_collection(const fs::path& folder) {
-    if (!fs::is_directory(folder) || fs::exists(folder / "specifications")) return false;
-    std::size_t models = 0, others = 0;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        models += describes_model(entry.path());
-        others += entry.is_directory() || is_scene(entry.path());
-    }
-    return models > 1 || (models == 0 && others > 0);
-}
+/// Finds the models, scenes and objects below a folder. Who names a folder of everything, such as a home, is told so
+/// instead of waiting: all its files would be looked at.
+class Collection {
+public:
+    explicit Collection(const fs::path& folder) : folder_(folder) {}
 
-/// The models, scenes and objects of a collection, sorted.
-std::vector<fs::path> members_of(const fs::path& folder) {
-    std::vector<fs::path> members;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        const fs::path& path = entry.path();
-        const bool is_hidden = path.filename().string().starts_with('.');
-        if (entry.is_directory() && !is_hidden) {
-            if (is_collection(path)) {
-                for (const fs::path& member : members_of(path)) members.push_back(member);
-            } else if (fs::exists(path / "specifications") || !models_of(path).empty()) {
-                members.push_back(path);
+    /// False for an object, and for what is no folder; true for one that holds several models, or scenes, or folders.
+    bool is_one() { return fs::is_directory(folder_) && kind_of(folder_) == Kind::collection; }
+    /// Sorted.
+    std::vector<fs::path> members() {
+        std::vector<fs::path> members;
+        add_members(folder_, members);
+        std::sort(members.begin(), members.end());
+        return members;
+    }
+
+private:
+    static constexpr std::size_t most_looked_at = 20000;
+
+    enum class Kind { collection, object, other };
+
+    void count(std::size_t entries) {
+        looked_at_ += entries;
+        if (looked_at_ <= most_looked_at) return;
+        throw UserError(fmt::format("more than {} files and folders lie below {}: name the folder of the models",
+                                    most_looked_at, folder_.string()));
+    }
+
+    // Links are not followed: they may lead round in a circle, or anywhere. What may not be read holds nothing.
+    std::vector<fs::directory_entry> entries_of(const fs::path& folder) {
+        std::vector<fs::directory_entry> entries;
+        std::error_code error;
+        for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+            count(1);
+            const bool is_hidden = entry->path().filename().string().starts_with('.');
+            std::error_code unknown;
+            const bool is_linked_folder = entry->is_symlink(unknown) && entry->is_directory(unknown);
+            if (!is_hidden && !is_linked_folder) entries.push_back(*entry);
+        }
+        return entries;
+    }
+
+    Kind kind_of(const fs::path& folder) {
+        std::error_code unknown;
+        if (fs::exists(folder / "specifications", unknown)) return Kind::object;
+        std::size_t models = 0, others = 0;
+        for (const fs::directory_entry& entry : entries_of(folder)) {
+            models += describes_model(entry.path());
+            others += entry.is_directory(unknown) || is_scene(entry.path());
+        }
+        if (models == 1) return Kind::object;
+        return models > 1 || others > 0 ? Kind::collection : Kind::other;
+    }
+
+    void add_members(const fs::path& folder, std::vector<fs::path>& members) {
+        for (const fs::directory_entry& entry : entries_of(folder)) {
+            const fs::path& path = entry.path();
+            std::error_code unknown;
+            if (!entry.is_directory(unknown)) {
+                if (describes_model(path) || describes_scene(path)) members.push_back(path);
+                continue;
             }
-        } else if (!is_hidden && (describes_model(path) || describes_scene(path))) {
-            members.push_back(path);
+            const Kind kind = kind_of(path);
+            if (kind == Kind::object) members.push_back(path);
+            if (kind == Kind::collection) add_members(path, members);
         }
     }
-    std::sort(members.begin(), members.end());
-    return members;
-}
+
+    fs::path folder_;
+    std::size_t looked_at_ = 0;
+};
 
 Findings findings_of(const CheckArguments& arguments);
 
 // A model is read with the view file beside it. What is wrong with one file does not keep the others from being read.
-void review_collection(const CheckArguments& arguments, Findings& findings) {
-    const std::vector<fs::path> members = members_of(arguments.model.file);
+void review_collection(Collection& collection, const CheckArguments& arguments, Findings& findings) {
+    const std::vector<fs::path> members = collection.members();
     for (const fs::path& member : members) {
         CheckArguments one = arguments;
         one.model.file = member;
@@ -177,8 +218,8 @@ void review_collection(const CheckArguments& arguments, Findings& findings) {
 
 Findings findings_of(const CheckArguments& arguments) {
     Findings findings;
-    if (is_collection(arguments.model.file)) {
-        review_collection(arguments, findings);
+    if (Collection collection(arguments.model.file); collection.is_one()) {
+        review_collection(collection, arguments, findings);
         remove_repeated(findings);
         return findings;
     }

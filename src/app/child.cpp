@@ -24,9 +24,8 @@ namespace {
 std::atomic<int> signals{0};
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
 
-// A terminal that is closed may say so twice.
 void count_signal(int signal) {
-    if (!platform::is_hang_up(signal) || signals == 0) ++signals;
+    if (!platform::may_repeat(signal) || signals == 0) ++signals;
 }
 
 platform::OpenFile log_file(const std::filesystem::path& path) {

@@ -1,5 +1,7 @@
 #include "command_line.h"
 
+#include "options.h"
+
 #include <sstream>
 
 namespace espalier::app {
@@ -11,6 +13,10 @@ CommandLine::CommandLine()
     program.require_subcommand(1);
     program.footer("`espalier COMMAND --help` explains a command, with examples.");
     for (const auto& [place, make] : command_makers()) commands.push_back(make(program));
+    for (CLI::App* command : program.get_subcommands({})) {
+        read_decimal_numbers(*command);
+        refuse_empty_names(*command);
+    }
 }
 
 std::vector<const CLI::App*> shown_commands(const CLI::App& program) {

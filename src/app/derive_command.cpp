@@ -9,7 +9,9 @@
 #include "lsystem/derive/explanation.h"
 #include "options.h"
 #include "simulation/object/plain_lines.h"
+#include "simulation/run/allowed_memory.h"
 #include "simulation/world/insertion.h"
+#include "trust.h"
 #include "turtle/asking.h"
 #include "turtle/terminals.h"
 
@@ -37,6 +39,7 @@ struct DeriveArguments {
     KeyValues overrides;    ///< settings of a scene
     std::string plant;      ///< its name; empty: the only one
     std::string explained;  ///< a symbol: what became of its modules is told instead; empty: none
+    bool trust = false;     ///< the programs that the files name may be started
 };
 
 // Answers ?P ?H ?L ?U ?Q; queries to processes are answered the defaults of the model, or keep their parameters.
@@ -103,7 +106,7 @@ ModuleString derive_alone(const Scene& scene, const DeriveArguments& arguments) 
     DerivationSettings settings;
     settings.seed = scene.seed;
     // Old and new string, and the text they are printed as.
-    settings.memory = (arguments.memory == 0 ? default_memory() : arguments.memory) / 2;
+    settings.memory = allowed_memory(arguments.memory, arguments.model.file) / 2;
     settings.input_folder = folder_with(source_of(*plant.model));
     settings.output_folder = arguments.files;
     Derivation derivation(plant.model, settings);
@@ -249,7 +252,7 @@ struct Derived {
 };
 
 Derived derive_in_world(const Scene& scene, const DeriveArguments& arguments) {
-    World world(scene, arguments.memory == 0 ? default_memory() : arguments.memory, arguments.files);
+    World world(scene, allowed_memory(arguments.memory, arguments.model.file), arguments.files);
     print_warnings(world.warnings(), arguments.quiet);
     const std::size_t told = world.warnings().size();
     const std::size_t plant = number_of_plant(world, arguments.plant);
@@ -320,6 +323,7 @@ Scene scene_of(const DeriveArguments& arguments) {
 
 int derive(const DeriveArguments& arguments) {
     const Scene scene = scene_of(arguments);
+    require_trust(programs_of(scene), arguments.trust);
     print_warnings(scene.notes.diagnostics, arguments.quiet);
     const bool is_alone = !is_scene(arguments.model.file) && scene.environment.processes.empty() &&
                           arguments.plant.empty() && arguments.explained.empty();
@@ -379,7 +383,8 @@ Examples:
 
     int run() override {
         return derive({model_.arguments(), growth_.steps(), growth_.seed(), format_, before_exchange_,
-                       without_nonterminals_, files_, quiet_, growth_.memory(), sets_.overrides(), plant_, explained_});
+                       without_nonterminals_, files_, quiet_, growth_.memory(), sets_.overrides(), plant_, explained_,
+                       growth_.trust()});
     }
 
 private:

@@ -4,6 +4,7 @@
 
 #include "base/json_text.h"
 #include "base/platform.h"
+#include "base/reason.h"
 #include "base/text.h"
 #include "command_line.h"
 #include "looking_half.h"
@@ -139,12 +140,11 @@ int parse_and_run(int argc, char** argv) {
         // A path that cannot be looked at: too long a name, a loop of links, a folder without permission.
         const bool disk = error.code() == std::errc::no_space_on_device || error.code() == std::errc::io_error ||
                           error.code() == std::errc::read_only_file_system;
-        return fail(fmt::format("{}: {}", error.path1().string(), error.code().message()),
-                    disk ? exit_code::run_failed : exit_code::user_error, json);
+        return fail(reason_of(error), disk ? exit_code::run_failed : exit_code::user_error, json);
     } catch (const std::bad_alloc&) {
         return fail("the machine has no memory left; set a limit with --memory", exit_code::run_failed, json);
     } catch (const std::exception& error) {
-        return fail(error.what(), exit_code::run_failed, json);
+        return fail(reason_of(error), exit_code::run_failed, json);
     }
 }
 

@@ -105,11 +105,12 @@ std::string example_section(const Manual& manual, const std::string& what, const
     const std::string name = example->file.generic_string();
     std::string text = example->text;
     if (!text.ends_with('\n')) text += '\n';
+    const bool starts_programs = text.find("process = \"external\"") != std::string::npos;
     return fmt::format(
         "## {}\n\n{}[`{}`]({})\n\n```{}\n{}```\n\n<!-- shortened in tests: run --steps 2 -->\n```sh\nespalier run "
-        "{}\n```\n",
+        "{}{}\n```\n",
         what, picture_of(manual.folder, picture_name(example->file), example->file.filename().string(), from), name,
-        link_from(from, example->file), language, text, name);
+        link_from(from, example->file), language, text, name, starts_programs ? " --trust" : "");
 }
 
 /// "voxel-shade", what it is, and its help.

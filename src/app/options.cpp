@@ -4,6 +4,7 @@
 
 #include "base/number.h"
 #include "program_data.h"
+#include "trust.h"
 
 #include <fmt/format.h>
 
@@ -22,6 +23,27 @@ std::optional<double> bytes_of_unit(const std::string& unit) {
     return std::pow(1024.0, static_cast<double>(power + 1));
 }
 
+std::string_view without_plus(std::string_view text) {
+    return text.starts_with('+') ? text.substr(1) : text;
+}
+
+/// The text becomes the number as CLI11 reads no other; returns what is wrong with it.
+std::string to_decimal(std::string& text, std::string_view type) {
+    if (type == "FLOAT") {
+        if (finite_number(without_plus(text))) return "";
+        return fmt::format("a number is expected, not '{}'", text);
+    }
+    const std::string_view digits = without_plus(text);
+    if (type == "UINT") {
+        const auto number = whole_text_as<std::uint64_t>(digits);
+        if (number) text = std::to_string(*number);
+        return number ? "" : fmt::format("a whole number of at least 0 is expected, not '{}'", text);
+    }
+    const auto number = whole_text_as<std::int64_t>(digits);
+    if (number) text = std::to_string(*number);
+    return number ? "" : fmt::format("a whole number is expected, not '{}'", text);
+}
+
 KeyValues split(const std::vector<std::string>& texts, const std::string& option) {
     KeyValues result;
     for (const std::string& text : texts) result.push_back(key_and_value(text, option));
@@ -31,14 +53,10 @@ KeyValues split(const std::vector<std::string>& texts, const std::string& option
 }  // namespace
 
 std::size_t size_in_bytes(const std::string& text, const std::string& option) {
-    std::size_t used = 0;
     double number = 0;
-    try {
-        number = std::stod(text, &used);
-    } catch (const std::exception&) {
-    }
-    const double bytes = number * bytes_of_unit(text.substr(used)).value_or(0);
-    if (used == 0 || !(bytes >= 1) || bytes > 1e18) {
+    const auto [behind, error] = read_number(text.data(), text.data() + text.size(), number);
+    const double bytes = number * bytes_of_unit(behind).value_or(0);
+    if (error != std::errc() || !(bytes >= 1) || bytes > 1e18) {
         throw UserError(fmt::format("{} {}: expected a size such as 512M or 4G", option, text));
     }
     return static_cast<std::size_t>(bytes);
@@ -50,6 +68,24 @@ std::pair<std::string, std::string> key_and_value(const std::string& text, const
         throw UserError(fmt::format("{} {}: expected KEY=VALUE", option, text));
     }
     return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+void read_decimal_numbers(CLI::App& command) {
+    for (CLI::Option* option : command.get_options()) {
+        const std::string type = option->get_type_name();
+        for (const std::string word : {"INT", "UINT", "FLOAT"}) {
+            if (type != word && !type.starts_with(word + ":")) continue;
+            option->transform(
+                CLI::Validator([word](std::string& text) { return to_decimal(text, word); }, "", "decimal"));
+        }
+    }
+}
+
+void refuse_empty_names(CLI::App& command) {
+    const auto check = [](const std::string& text) { return text.empty() ? "the name is empty" : std::string(); };
+    for (CLI::Option* option : command.get_options([](const CLI::Option* any) { return any->get_positional(); })) {
+        option->check(CLI::Validator(check, "", "named"));
+    }
 }
 
 CLI::Validator above_zero() {
@@ -115,6 +151,7 @@ GrowthOptions::GrowthOptions(CLI::App& command) {
             "seed of all random numbers; the same seed gives the same result. random: draw a seed and print it")
         ->type_name("INT|random");
     command.add_option("--memory", memory_, "memory that the run may use, such as 4G; default: half of the machine");
+    command.add_flag("--trust", trust_, trust_help);
 }
 
 void GrowthOptions::read_seed(const std::string& text) {

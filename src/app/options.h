@@ -23,6 +23,13 @@ std::pair<std::string, std::string> key_and_value(const std::string& text, const
 /// "512M", "4G", "1.5GiB", "1000000": bytes; K, M, G, T are powers of 1024. Throws UserError naming the option.
 std::size_t size_in_bytes(const std::string& text, const std::string& option);
 
+/// All options of a command that take numbers read them as decimal: 010 is 10, 0x10 is no number. CLI11 reads whole
+/// numbers as C does.
+void read_decimal_numbers(CLI::App& command);
+
+/// Its arguments are names, and an empty text is none: a script whose variable is not set.
+void refuse_empty_names(CLI::App& command);
+
 /// Accepts finite numbers above 0. CLI11's own tells of all of the range of a double.
 CLI::Validator above_zero();
 
@@ -52,7 +59,7 @@ private:
     std::vector<std::string> sets_;
 };
 
-/// --steps, --seed and --memory.
+/// --steps, --seed, --memory and --trust.
 class GrowthOptions {
 public:
     explicit GrowthOptions(CLI::App& command);
@@ -62,6 +69,7 @@ public:
         return seed_ < 0 ? std::nullopt : std::optional(static_cast<std::uint64_t>(seed_));
     }
     std::size_t memory() const;  ///< bytes; 0: not given
+    bool trust() const { return trust_; }
 
 private:
     void read_seed(const std::string& text);
@@ -69,6 +77,7 @@ private:
     int steps_ = -1;
     std::int64_t seed_ = -1;
     std::string memory_;
+    bool trust_ = false;
 };
 
 /// --disk.

@@ -6,6 +6,7 @@
 #include "command.h"
 #include "simulation/run/recorded_command.h"
 #include "temporary_folder.h"
+#include "trust.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -30,6 +31,7 @@ public:
                         "number of threads; default: all cores. The result does not depend on it")
             ->check(CLI::Range(1, 4096));
         app().add_flag("--quiet", quiet_, "print differences and errors only");
+        app().add_flag("--trust", trust_, trust_help);
         app().footer(
             R"(run.json contains everything that the run read: scene, models, side files, meshes. Files that were too large for it must still
 exist, unchanged. The exit code is 2 if a file differs.
@@ -46,6 +48,7 @@ Examples:
                        ESPALIER_VERSION);
         }
         require_apart();
+        require_trust(command.programs, trust_);
         const SignalCounter signals;
         const TemporaryFolder temporary("rerun");
         const fs::path output = output_.empty() ? temporary.path() / "timeline" : fs::absolute(output_);
@@ -78,6 +81,7 @@ private:
         arguments.insert(arguments.end(), {"--output", output.string()});
         if (threads_ > 0) arguments.insert(arguments.end(), {"--threads", std::to_string(threads_)});
         if (quiet_) arguments.push_back("--quiet");
+        if (trust_ || !command.programs.empty()) arguments.push_back("--trust");
         const int code = wait_for_program(start_run(arguments, folder, {}), signals);
         if (signals.count() > 0 && code != 0) return false;
         if (code == exit_code::user_error) throw UserError("the run could not be repeated: see above");
@@ -99,7 +103,7 @@ private:
 
     fs::path run_, output_;
     int threads_ = 0;
-    bool quiet_ = false;
+    bool quiet_ = false, trust_ = false;
 };
 
 const RegisteredCommand<Rerun> rerun_entry{14};

@@ -7,6 +7,7 @@
 #include "options.h"
 #include "run_command.h"
 #include "simulation/run/recorded_command.h"
+#include "trust.h"
 
 #include <fmt/format.h>
 
@@ -35,6 +36,7 @@ public:
                         "number of threads; default: all cores. The result does not depend on it")
             ->check(CLI::Range(1, 4096));
         app().add_flag("--quiet", quiet_, quiet_growth_help);
+        app().add_flag("--trust", trust_, trust_help);
         add_json_flag("print the result as JSON");
         app().footer(
             R"(The result is the same, byte for byte, as without the interruption. Ctrl-C leaves a checkpoint. So does
@@ -87,6 +89,7 @@ private:
         }
         if (quiet_) words.emplace_back("--quiet");
         if (wants_json()) words.emplace_back("--json");
+        if (trust_) words.emplace_back("--trust");
         fs::current_path(command.folder);
         throw RunError("cannot start the run: " + platform::become(std::move(words)).message());
     }
@@ -95,7 +98,7 @@ private:
     BlockOptions blocks_;
     fs::path run_;
     int checkpoint_every_ = 0, threads_ = 0;
-    bool quiet_ = false;
+    bool quiet_ = false, trust_ = false;
 };
 
 const RegisteredCommand<Resume> resume_entry{12};

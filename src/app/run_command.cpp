@@ -8,7 +8,9 @@
 #include "progress.h"
 #include "ranks/launcher.h"
 #include "setting_values.h"
+#include "simulation/run/allowed_memory.h"
 #include "simulation/run/disk_budget.h"
+#include "trust.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -30,10 +32,14 @@ StopRequest interrupt;
 
 std::atomic<bool> silent{false};
 
-void request_interrupt(int) {
+void request_interrupt(int signal) {
+    if (platform::may_repeat(signal) && interrupt.is_asked()) return;
     interrupt.ask(patience_with_steps);
     if (silent) return;
-    platform::write_error("\nfinishing this step (press Ctrl-C again to stop at once)\n");
+    platform::write_error("\n");
+    platform::write_error(platform::name_of_signal(signal));
+    platform::write_error(platform::may_repeat(signal) ? ": finishing this step, then writing a checkpoint\n"
+                                                       : ": finishing this step (a second time: stopping at once)\n");
 }
 
 // What takes more than a moment.
@@ -49,6 +55,15 @@ void say_what_is_saved(std::size_t bytes) {
     const int code = fail(why, exit_code::run_failed, json);
     std::fflush(stdout);
     std::_Exit(code);
+}
+
+// How an interrupted run is continued.
+std::string way_on(const fs::path& output) {
+    std::error_code ignored;
+    if (fs::exists(checkpoint_of(output), ignored)) {
+        return fmt::format("the run has a checkpoint: `espalier resume {}` continues it", quoted(output.string()));
+    }
+    return "the run has no checkpoint, because it was interrupted within its first long step";
 }
 
 void print_result(const RunArguments& arguments, const Scene& scene, const fs::path& output, const RunResult& result) {
@@ -73,6 +88,7 @@ void print_result(const RunArguments& arguments, const Scene& scene, const fs::p
                grouped(result.modules), scene.plants.size(), scene.plants.size() == 1 ? "" : "s",
                duration_text(result.seconds));
     fmt::print("{}\n", (output / "").string());
+    if (result.interrupted) fmt::print(stderr, "{}\n", way_on(output));
 }
 
 // Where neither the animation nor the derivation length ends soon, the user does.
@@ -102,7 +118,9 @@ void take_settings(const fs::path& file, RunArguments& arguments) {
     }
 }
 
-Scene scene_of(const RunArguments& arguments) {
+namespace {
+
+Scene read(const RunArguments& arguments) {
     const SceneOptions options{arguments.overrides, arguments.steps, arguments.seed};
     if (is_scene(arguments.model.file)) {
         reject_side_files(arguments.model);
@@ -112,6 +130,23 @@ Scene scene_of(const RunArguments& arguments) {
     const bool is_folder = fs::is_directory(arguments.model.file);
     if (is_folder && !arguments.quiet) fmt::print(stderr, "{}: {}\n", object.name, taken_files(object));
     return scene_of_object(object, options);
+}
+
+}  // namespace
+
+Scene scene_of(const RunArguments& arguments) {
+    Scene scene = read(arguments);
+    std::vector<NamedProgram> programs = simulation::programs_of(scene);
+    require_trust(programs, arguments.trust);
+    // What a run is resumed with comes from its folder, too.
+    for (NamedProgram& program : programs) program.folder = resolved(arguments.output);
+    if (arguments.resume) require_trust(programs, arguments.trust);
+    return scene;
+}
+
+std::vector<NamedProgram> programs_of(RunArguments arguments) {
+    arguments.quiet = true;
+    return simulation::programs_of(read(arguments));
 }
 
 // To make a folder is the only way to know that no other run has it.
@@ -178,7 +213,7 @@ RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog&
     options.overwrite = arguments.overwrite;
     options.checkpoint_every = arguments.checkpoint_every;
     options.resume = arguments.resume;
-    options.memory = arguments.memory;
+    options.memory = allowed_memory(arguments.memory, arguments.model.file);
     options.disk = arguments.disk;
     options.blocks = arguments.blocks;
     options.resident = arguments.resident;
@@ -211,6 +246,7 @@ int run_here(const RunArguments& arguments, Ranks* ranks) {
     if (is_first(ranks)) print_warnings(scene.notes.diagnostics, arguments.quiet);
     const fs::path output = from_first(ranks, unnamed ? unnamed->path().string() : arguments.output.string());
     const RunResult result = grow(arguments, scene, inputs, output, nullptr, ranks);
+    if (is_first(ranks)) trust_record(simulation::programs_of(scene), arguments.trust, output);
     if (is_first(ranks)) print_result(arguments, scene, output, result);
     if (ranks) ranks->agree();
     return result.interrupted ? exit_code::interrupted : exit_code::done;
@@ -311,6 +347,7 @@ Ctrl-C stops at once.)");
         arguments_.steps = growth_.steps();
         arguments_.seed = growth_.seed();
         arguments_.memory = growth_.memory();
+        arguments_.trust = growth_.trust();
         arguments_.disk = disk_.bytes();
         arguments_.blocks = blocks_.blocks();
         arguments_.resident = blocks_.resident();

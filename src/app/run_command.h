@@ -6,6 +6,7 @@
 
 #include "base/platform.h"
 #include "model_arguments.h"
+#include "simulation/run/named_programs.h"
 
 #include <cstdint>
 #include <exception>
@@ -34,6 +35,7 @@ struct RunArguments {
     bool quiet = false;
     bool json = false;
     std::function<void(const std::vector<Diagnostic>&, bool quiet)> warn = print_warnings;
+    bool trust = false;  ///< the programs that the files name may be started
 };
 /// Takes the settings of a file that `espalier tree` writes, or of one of its presets, for the model, or the first
 /// plant of the scene; what the arguments say themselves counts more. Throws UserError.
@@ -56,8 +58,12 @@ private:
     std::filesystem::path path_;
 };
 
-/// The scene that the arguments name. Throws UserError.
+/// The scene that the arguments name, to be grown: the user has agreed to the programs that it starts. Throws
+/// UserError.
 Scene scene_of(const RunArguments& arguments);
+
+/// The programs that a run of the arguments would start. Throws UserError.
+std::vector<NamedProgram> programs_of(RunArguments arguments);
 
 /// While it lives, the first Ctrl-C asks the work of this thread to end after the step at hand, or in its midst if that
 /// lasts, and the second ends the program.

@@ -5,11 +5,12 @@
 
 #include "archive/vtk_xml.h"
 #include "geometry/grids/grid_file.h"
+#include "geometry/grids/vdb_file.h"
 
-#include <openvdb/io/File.h>
 #include <openvdb/tools/Dense.h>
 
 #include <cmath>
+#include <fstream>
 #include <sstream>
 
 namespace espalier::archive {
@@ -60,20 +61,15 @@ std::string metadata(const openvdb::GridBase& grid, const char* name) {
 }
 
 openvdb::FloatGrid::Ptr open_grid(const std::filesystem::path& path, const std::string& name) {
-    initialize_openvdb();
     require_readable(path);
     try {
-        openvdb::io::File file(path.string());
-        file.open(/*delayLoad=*/false);
-        if (!file.hasGrid(name)) {
-            throw UserError(fmt::format("{} is damaged: it has no grid '{}'", path.string(), name));
-        }
-        auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid(name));
-        if (grid) return grid;
-    } catch (const UserError&) {
-        throw;
-    } catch (const std::exception& error) {
-        throw UserError(fmt::format("cannot read {}: {}", path.string(), error.what()));
+        std::ifstream in(path, std::ios::binary);
+        geometry::VdbFile file(in, geometry::memory_for_grids());
+        if (auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(file.read(name))) return grid;
+    } catch (const geometry::VdbError& error) {
+        throw UserError(fmt::format("{} is damaged: {}", path.string(), error.what()));
+    } catch (const openvdb::Exception& error) {
+        throw UserError(fmt::format("{} is damaged: {}", path.string(), error.what()));
     }
     throw UserError(fmt::format("{} is damaged: grid '{}' is not of floats", path.string(), name));
 }

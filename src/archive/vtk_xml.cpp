@@ -20,7 +20,9 @@
 namespace espalier::archive {
 namespace {
 
-constexpr std::size_t most_ratio = 1100;   // zlib packs 1032 bytes into one at most
+constexpr std::size_t most_ratio = 1100;  // zlib packs 1032 bytes into one at most, LZ4 255
+/// What a block claims to unpack to is taken before it is known to be so: VTK's default is 32 KiB, a run's 256 KiB.
+constexpr std::size_t largest_block = std::size_t{16} << 20;
 constexpr std::uint64_t header_words = 3;  // number of blocks, size of a block, size of the last if it is a smaller one
 
 std::vector<std::uint64_t> words(const std::vector<char>& bytes) {
@@ -58,7 +60,7 @@ private:
         for (std::uint64_t block = 0; block < blocks; ++block) {
             const std::uint64_t packed = header_[header_words + block];
             const std::uint64_t plain = block + 1 == blocks && partial > 0 ? partial : header_[1];
-            if (packed == 0 || packed > packed_.size() - at || plain / most_ratio > packed) return false;
+            if (packed == 0 || packed > packed_.size() - at || plain > largest_block) return false;
             if (!unpack(at, packed, plain, result)) return false;
             at += packed;
         }

@@ -334,6 +334,15 @@ bool has_terminal() {
     return ::isatty(STDERR_FILENO) == 1;
 }
 
+bool can_ask() {
+    return ::isatty(STDIN_FILENO) == 1 && has_terminal();
+}
+
+bool input_waits(std::chrono::milliseconds patience) {
+    pollfd ready{STDIN_FILENO, POLLIN, 0};
+    return ::poll(&ready, 1, static_cast<int>(patience.count())) > 0;
+}
+
 void write_error(std::string_view text) {
     [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, text.data(), text.size());
 }
@@ -353,7 +362,7 @@ std::error_code become(std::vector<std::string> words) {
 // --- signals --------------------------------------------------------------------------------------------------------
 
 struct EndSignals::Before {
-    static constexpr std::array signals{SIGINT, SIGTERM, SIGHUP};
+    static constexpr std::array signals{SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1, SIGUSR2};
     std::array<struct sigaction, signals.size()> actions{};
 };
 
@@ -363,9 +372,9 @@ EndSignals::EndSignals(void (*handler)(int), bool only_once) : before_(std::make
     for (std::size_t i = 0; i < Before::signals.size(); ++i) {
         const int signal = Before::signals[i];
         struct sigaction& before = before_->actions[i];
-        action.sa_flags = only_once && !is_hang_up(signal) ? SA_RESETHAND | SA_RESTART : SA_RESTART;
+        action.sa_flags = only_once && !may_repeat(signal) ? SA_RESETHAND | SA_RESTART : SA_RESTART;
         ::sigaction(signal, &action, &before);
-        if (is_hang_up(signal) && before.sa_handler == SIG_IGN) ::sigaction(signal, &before, nullptr);
+        if (may_repeat(signal) && before.sa_handler == SIG_IGN) ::sigaction(signal, &before, nullptr);
     }
 }
 
@@ -375,8 +384,26 @@ EndSignals::~EndSignals() {
     }
 }
 
-bool is_hang_up(int signal) {
-    return signal == SIGHUP;
+// The shell of a closed terminal asks, too; SIGXCPU comes every second; batch systems ask a process and its group.
+bool may_repeat(int signal) {
+    return signal != SIGINT && signal != SIGTERM;
+}
+
+const char* name_of_signal(int signal) {
+    switch (signal) {
+        case SIGTERM:
+            return "SIGTERM";
+        case SIGHUP:
+            return "SIGHUP";
+        case SIGXCPU:
+            return "SIGXCPU";
+        case SIGUSR1:
+            return "SIGUSR1";
+        case SIGUSR2:
+            return "SIGUSR2";
+        default:
+            return "Ctrl-C";
+    }
 }
 
 void report_large_files() {

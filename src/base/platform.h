@@ -107,6 +107,12 @@ void occupy_standard_streams();
 /// Is standard error a terminal that redraws a line?
 bool has_terminal();
 
+/// Are standard input and standard error terminals, so that a question is seen and answered?
+bool can_ask();
+
+/// Waits at most so long until there is something to read from standard input, or its end.
+bool input_waits(std::chrono::milliseconds patience);
+
 /// Writes to standard error; allowed in a signal handler.
 void write_error(std::string_view text);
 
@@ -118,11 +124,12 @@ std::error_code become(std::vector<std::string> words);
 
 // --- signals --------------------------------------------------------------------------------------------------------
 
-/// The signals that ask a program to end: Ctrl-C, kill, and a terminal that is closed. While it lives, a handler of its
-/// own answers them. A terminal's signal that `nohup` had made ignored stays so.
+/// The signals that ask a program to end: Ctrl-C, kill, a terminal that is closed, and those by which batch systems say
+/// that a job's time is nearly up (SIGXCPU, SIGUSR1, SIGUSR2). While it lives, a handler of its own answers them. A
+/// signal that may repeat and that whoever started the program had made ignored, as `nohup` does, stays so.
 class EndSignals {
 public:
-    /// `only_once`: the second of a kind ends the program. Never that of a terminal, which the shell may send, too.
+    /// `only_once`: the second of a kind ends the program, unless it may repeat.
     EndSignals(void (*handler)(int), bool only_once);
     ~EndSignals();
     EndSignals(const EndSignals&) = delete;
@@ -133,8 +140,10 @@ private:
     std::unique_ptr<Before> before_;
 };
 
-/// Does a closed terminal ask?
-bool is_hang_up(int signal);
+/// May a signal come a second time without being meant as a second request? Ctrl-C and kill are.
+bool may_repeat(int signal);
+/// "SIGUSR1"; of the keyboard's "Ctrl-C". Allowed in a signal handler.
+const char* name_of_signal(int signal);
 
 /// A file larger than the system allows is from now on an error of its writer and does not end the program.
 void report_large_files();

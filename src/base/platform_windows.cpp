@@ -391,6 +391,15 @@ bool has_terminal() {
     return ::_isatty(2) != 0;
 }
 
+bool can_ask() {
+    return ::_isatty(0) != 0 && has_terminal();
+}
+
+bool input_waits(std::chrono::milliseconds patience) {
+    return ::WaitForSingleObject(::GetStdHandle(STD_INPUT_HANDLE), static_cast<DWORD>(patience.count())) ==
+           WAIT_OBJECT_0;
+}
+
 void write_error(std::string_view text) {
     [[maybe_unused]] const int ignored = ::_write(2, text.data(), static_cast<unsigned>(text.size()));
 }
@@ -418,7 +427,7 @@ bool answers_once = false;
 
 /// Windows forgets a handler before it calls it.
 void answer(int signal) {
-    if (!answers_once || is_hang_up(signal)) std::signal(signal, answer);
+    if (!answers_once || may_repeat(signal)) std::signal(signal, answer);
     answering(signal);
 }
 
@@ -440,9 +449,13 @@ EndSignals::~EndSignals() {
     for (std::size_t i = 0; i < Before::signals.size(); ++i) std::signal(Before::signals[i], before_->handlers[i]);
 }
 
-/// A window of the console that is closed.
-bool is_hang_up(int signal) {
+// A window of the console that is closed.
+bool may_repeat(int signal) {
     return signal == SIGBREAK;
+}
+
+const char* name_of_signal(int signal) {
+    return signal == SIGTERM ? "SIGTERM" : signal == SIGBREAK ? "SIGBREAK" : "Ctrl-C";
 }
 
 void report_large_files() {}

@@ -1,9 +1,9 @@
 // TOML into Settings: the only place that knows toml++.
 #include "espalier/base/file.h"
 
-#include "base/characters.h"
 #include "base/text.h"
 #include "base/toml_depth.h"
+#include "base/toml_words.h"
 #include "settings_node.h"
 
 #include <fmt/format.h>
@@ -83,59 +83,25 @@ toml::table parsed(std::string_view text, const Origin& origin) {
     return toml::parse(text, origin.name);
 }
 
-/// The backslashes of C:\plants\oak.l in double quotes, which begin escapes.
-bool has_path_of_windows(std::string_view line) {
-    constexpr std::string_view escapes = "btnfre\"\\uUx";
-    bool quoted = false;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        if (line[i] == '"') quoted = !quoted;
-        if (!quoted || line[i] != '\\' || ++i == line.size()) continue;
-        if (escapes.find(line[i]) == std::string_view::npos) return true;
-        // \u and \U stand before digits, but \users does not.
-        const bool is_code = line[i] == 'u' || line[i] == 'U' || line[i] == 'x';
-        constexpr std::string_view digits = "0123456789abcdefABCDEF";
-        if (is_code && (i + 1 == line.size() || digits.find(line[i + 1]) == std::string_view::npos)) return true;
-    }
-    return false;
-}
-
-/// The words of `key = words` without quotes, or nothing.
-std::string_view unquoted_text(std::string_view line) {
-    const std::size_t equals = line.find('=');
-    if (equals == std::string_view::npos) return {};
-    line.remove_prefix(std::min(line.find_first_not_of(" \t", equals + 1), line.size()));
-    line = line.substr(0, line.find('#'));
-    while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);
-    const auto begins_text = [](char c) { return is_name_start(c) || c == '.' || c == '/' || c == '~'; };
-    const bool is_text = !line.empty() && begins_text(line.front()) && line.find('"') == std::string_view::npos;
-    return is_text ? line : std::string_view();
-}
-
-/// What to write in place of a line that is no TOML, behind what is wrong with it.
-std::string remedy(std::string_view line) {
-    if (has_path_of_windows(line)) {
-        return ". In double quotes a backslash begins an escape: write a path with slashes, \"C:/plants/oak.l\", or in "
-               "single quotes, 'C:\\plants\\oak.l'";
-    }
-    const std::string_view text = unquoted_text(line);
-    if (text.empty()) return "";
-    const char quote = text.find('\\') == std::string_view::npos ? '"' : '\'';
-    return fmt::format(". A text stands in quotes: {0}{1}{0}", quote, text);
-}
-
 std::shared_ptr<Node> parse(std::string_view text, const Origin& origin) {
     try {
         return convert(parsed(text, origin), origin);
     } catch (const toml::parse_error& error) {
         const std::string line = line_of(text, error.source().begin.line);
-        throw UserError(place_of(error.source(), origin), std::string(error.description()) + remedy(line), line);
+        throw UserError(place_of(error.source(), origin), words_for_toml(error.description(), line), line);
     }
+}
+
+// Array jobs pad their numbers: 007 is no TOML, but means 7.
+std::string_view without_padding(std::string_view value) {
+    const bool is_whole = !value.empty() && value.find_first_not_of("0123456789") == std::string_view::npos;
+    return is_whole ? value.substr(std::min(value.find_first_not_of('0'), value.size() - 1)) : value;
 }
 
 // A value given on the command line: TOML if it reads as such, text otherwise.
 std::shared_ptr<Node> parse_value(std::string_view value, const Origin& origin) {
     try {
-        const toml::table table = parsed("value = " + std::string(value), origin);
+        const toml::table table = parsed("value = " + std::string(without_padding(value)), origin);
         if (table.size() == 1) return convert(*table.get("value"), origin);
     } catch (const toml::parse_error&) {
     }

@@ -2,6 +2,7 @@
 
 #include "espalier/base/error.h"
 
+#include "base/reason.h"
 #include "base/registered_part.h"
 #include "base/text.h"
 #include "environment/exchange/answering.h"
@@ -12,6 +13,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <exception>
+#include <new>
 #include <numeric>
 
 namespace espalier::environment {
@@ -48,6 +51,27 @@ void visit_written_queries(const Model& model, const Visit& visit) {
     }
 }
 
+/// What is wrong is told with the place of the process, if not with a better one.
+std::unique_ptr<EnvironmentProcess> made(const ProcessType& type, Settings& settings, const EnvironmentContext& context,
+                                         Fields& fields) {
+    const auto told = [&](const std::exception& error) {
+        return UserError(settings.place(),
+                         fmt::format("process '{}' ({}): {}", context.name, type.name, reason_of(error)));
+    };
+    try {
+        return type.make(settings, context, fields);
+    } catch (const UserError& error) {
+        if (error.diagnostics().empty() || error.diagnostics().front().place.known()) throw;
+        throw told(error);
+    } catch (const RunError&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw told(error);
+    }
+}
+
 }  // namespace
 
 bool needs_processes(const Model& model) {
@@ -68,7 +92,7 @@ Environment::Environment(const std::vector<std::pair<std::string, Settings>>& ta
         note_memory();
         own.memory -= std::min(own.memory, memory_kept());
         const auto& type = registered_part<ProcessType>(settings, "process", "process");
-        processes_.push_back(type.make(settings, own, fields_));
+        processes_.push_back(made(type, settings, own, fields_));
         names_.push_back(name);
         kinds_.push_back(type.name);
         arities_.push_back(processes_.back()->query_arity());

@@ -2,6 +2,7 @@
 #include "espalier/base/error.h"
 #include "espalier/base/stop.h"
 
+#include "base/reason.h"
 #include "python/bindings.h"
 
 namespace espalier::python {
@@ -34,6 +35,8 @@ void translate(std::exception_ptr thrown) {
         } else {
             raise(run_error_type, error.what(), {});
         }
+    } catch (const std::system_error& error) {
+        raise(run_error_type, reason_of(error).c_str(), {});
     }
 }
 

@@ -3,6 +3,10 @@
 #include "espalier/simulation/simulation.h"
 
 #include "python/bindings.h"
+#include "simulation/run/named_programs.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -13,14 +17,31 @@ namespace {
 /// Keys and values, these as TOML.
 using Values = std::vector<std::pair<std::string, std::string>>;
 
+// A file may be anybody's; what a program in Python adds itself is its own.
+void require_trust(const Scene& scene) {
+    for (const NamedProgram& program : programs_of(scene)) {
+        if (is_trusted(program.folder)) continue;
+        throw UserError(program.place,
+                        fmt::format("the process '{}' starts a program, which may do all that you may do: {}. Look at "
+                                    "it; if you trust the files in {}, say Scene.of(file, trust=True)",
+                                    program.process, fmt::join(program.command, " "), program.folder.string()));
+    }
+}
+
+BoundScene scene_of_file(const std::filesystem::path& path, const SceneOptions& options, bool trust) {
+    BoundScene bound{path.extension() == ".toml" ? read_scene(path, options) : scene_of_model(path, options)};
+    if (!trust) require_trust(bound.scene);
+    return bound;
+}
+
 BoundScene scene_at(const std::optional<std::filesystem::path>& path, const std::optional<std::uint64_t>& seed,
-                    const std::optional<int>& steps, const Values& overrides) {
+                    const std::optional<int>& steps, const Values& overrides, bool trust) {
     const py::gil_scoped_release free;
     SceneOptions options;
     options.seed = seed;
     options.steps = steps;
     options.overrides = overrides;
-    if (path) return {path->extension() == ".toml" ? read_scene(*path, options) : scene_of_model(*path, options)};
+    if (path) return scene_of_file(*path, options, trust);
     BoundScene bound;
     bound.scene.seed = seed.value_or(0);
     bound.scene.steps = steps;
@@ -78,7 +99,7 @@ int record(const BoundScene& bound, const std::filesystem::path& output, bool ov
 void bind_scene(py::module_& module) {
     py::class_<BoundScene>(module, "Scene")
         .def(py::init(&scene_at), py::arg("path") = py::none(), py::arg("seed") = py::none(),
-             py::arg("steps") = py::none(), py::arg("overrides") = Values{})
+             py::arg("steps") = py::none(), py::arg("overrides") = Values{}, py::arg("trust") = false)
         .def("set_time", set_time)
         .def("add_plant", add_plant)
         .def("add_process", add_process)

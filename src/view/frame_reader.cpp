@@ -1,5 +1,7 @@
 #include "view/frame_reader.h"
 
+#include "base/reason.h"
+
 #include <algorithm>
 #include <iterator>
 #include <set>
@@ -26,7 +28,7 @@ std::shared_ptr<const FrameData> read(const RecordedRun& run, const RecordedFram
         if (!frame.plants.empty()) data->geometry = run.geometry(frame);
         count(*data);
     } catch (const std::exception& error) {
-        data->error = error.what();
+        data->error = reason_of(error);
     }
     return data;
 }

@@ -1,5 +1,7 @@
 #include "view/history_reader.h"
 
+#include "base/reason.h"
+
 #include <utility>
 
 namespace espalier::view {
@@ -46,7 +48,7 @@ HistoryReader::Answer HistoryReader::read(const Question& question) {
         const auto history = reader_.history(*question.run, question.organ, question.seen_at, progress);
         if (history) answer.history = *history;
     } catch (const std::exception& error) {
-        answer.error = error.what();
+        answer.error = reason_of(error);
     }
     answer.finished = true;
     return answer;

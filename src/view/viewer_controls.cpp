@@ -1,6 +1,7 @@
 // What keys and controls of the window do.
 #include "espalier/base/error.h"
 
+#include "base/reason.h"
 #include "view/viewer.h"
 
 #include <fmt/format.h>
@@ -102,7 +103,7 @@ void Viewer::restyle(const PictureStyle& style) {
             stage_frame();
         }
     } catch (const UserError& error) {
-        say(error.what());
+        say(reason_of(error));
     }
     if (camera_is_mine_) reset_camera();  // legends take room
     dirty_ = true;

@@ -185,6 +185,64 @@ TEST_CASE_METHOD(BadInput, "sizes have units, or are refused", "[app]") {
 }
 
 #ifndef __SANITIZE_ADDRESS__
+// Array jobs pad their numbers with zeros.
+TEST_CASE_METHOD(BadInput, "numbers of options are decimal", "[app]") {
+    write("grow.l", models::bush);
+    const std::pair<std::string, int> steps[] = {{"10", 10}, {"010", 10}, {"0008", 8}, {"+3", 3}, {"000", 0}};
+    for (const auto& [text, count] : steps) {
+        const Outcome outcome = run("run grow.l --json --overwrite --output out --memory 2G --steps " + text);
+        CHECK(json::parse(outcome.out)["steps_done"] == count);
+    }
+    CHECK(run("run grow.l --steps 2 --quiet --every 02 --threads 01 --checkpoint-every 010 --output every").code == 0);
+    CHECK(json::parse(text_of(path() / "every/run.json"))["checkpoint_every"] == 10);
+    write("grow.toml", "[[plant]]\nmodel = \"grow.l\"\n");
+    CHECK(json::parse(run("run grow.toml --set simulation.steps=007 --json --output set").out)["steps_done"] == 7);
+
+    for (const std::string text : {"ten", "0x10", "1.5", "1e1", "''", "8-", "٣"}) {
+        const Outcome outcome = run("run grow.l --output no --steps " + text);
+        CHECK(outcome.code == 1);
+        CHECK_THAT(outcome.err, Contains("--steps: a whole number is expected, not '"));
+    }
+    CHECK_THAT(run("run grow.l --output no --blocks -1").err, Contains("a whole number of at least 0 is expected"));
+    CHECK_THAT(run("run grow.l --output no --timeout 0x10").err,
+               Contains("--timeout: a number is expected, not '0x10'"));
+    CHECK_THAT(run("run grow.l --output no --timeout nan").err, Contains("a number is expected"));
+    CHECK_THAT(run("run grow.l --output no --memory 0x1G").err, Contains("expected a size such as"));
+    CHECK_THAT(run("run grow.l --output no --steps 1000000001").err, Contains("not in range"));
+    CHECK_FALSE(fs::exists(path() / "no"));
+}
+
+TEST_CASE_METHOD(BadInput, "the file system's complaints are told in words", "[app]") {
+    write("grow.l", models::bush);
+    for (const std::string arguments :
+         {"run ''", "check ''", "info ''", "derive ''", "resume ''", "rerun ''", "run grow.l --steps 1 --output ''",
+          "run grow.l --steps 1 --output grow.l", "run grow.l --steps 1 --output grow.l/out", "check grow.l/x",
+          "sweep grow.l --steps 1 --vary simulation.seed=1 --output grow.l", "render ''", "export '' --format obj",
+          "run grow.l --steps 1 --view ''", "list models --models ''"}) {
+        INFO(arguments);
+        const Outcome outcome = run(arguments + " --quiet");
+        INFO(outcome.err);
+        CHECK((outcome.code == 0) == outcome.err.empty());
+        CHECK_THAT(outcome.err, !Contains("filesystem error") && !Contains("[]") && !Contains("std::") &&
+                                    !Contains("basic_") && !Contains("what()"));
+        CHECK_THAT(outcome.err, !Catch::Matchers::StartsWith(":"));
+    }
+}
+
+TEST_CASE_METHOD(BadInput, "a voxel that fields cannot have is refused with its place, in words", "[app]") {
+    write("ask.l", "environment p;\nlsystem: 1\nderivation length: 1\naxiom: F(1)A?p(0)\nendlsystem\n");
+    for (const std::string process : {"voxel-shade", "soil-water", "canopy-light"}) {
+        INFO(process);
+        write("small.toml",
+              "[simulation]\ndomain = { lower = [0, 0, 0], upper = [1e-5, 1e-5, 1e-5] }\n"
+              "[[plant]]\nmodel = \"ask.l\"\n[environment.p]\nprocess = \"" +
+                  process + "\"\nvoxel = 1e-7\n");
+        const Outcome outcome = run("run small.toml --quiet --output no");
+        CHECK_THAT(outcome.err, !Contains("ArithmeticError"));
+        if (outcome.code != 0) CHECK_THAT(outcome.err, Contains("small.toml:"));
+    }
+}
+
 TEST_CASE_METHOD(BadInput, "the peak memory of a run is its own, whoever started it", "[app]") {
     write("bush.l", models::bush);
     const std::size_t mib = std::size_t{1} << 20;

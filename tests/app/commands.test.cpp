@@ -256,6 +256,22 @@ TEST_CASE_METHOD(Workplace, "check says what was read and warns of what looks wr
     CHECK(json::parse(run("check counter.l --json").out)["warnings"].size() >= 1);
 }
 
+TEST_CASE_METHOD(Workplace, "check looks through a folder of models, but not through a machine", "[app]") {
+    write("a.l", models::bush);
+    write("b.l", models::bush);
+    std::filesystem::create_directories(path() / "deep/er");
+    write("deep/er/c.l", models::bush);
+    std::filesystem::create_directory_symlink(path(), path() / "deep/round");
+    const Outcome all = run("check .");
+    CHECK(all.code == 0);
+    CHECK_THAT(all.out, Contains("3 models, scenes and objects"));
+
+    for (int i = 0; i <= 20000; ++i) std::ofstream(path() / "deep" / std::to_string(i));
+    const Outcome many = run("check .");
+    CHECK(many.code == 1);
+    CHECK_THAT(many.err, Contains("more than 20000 files and folders lie below ."));
+}
+
 TEST_CASE_METHOD(Workplace, "checking a scene grows nothing and leaves nothing", "[app]") {
     write("bush.l", models::bush);
     write("scene.toml", "[[plant]]\nmodel = 'bush.l'\n[environment.light]\nprocess = 'voxel-shade'\nvoxel = 0.5\n");

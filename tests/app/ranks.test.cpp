@@ -147,6 +147,35 @@ TEST_CASE_METHOD(Launched, "all ranks end with the exit code of a mistake, told 
     CHECK(whole.err.find("there is nothing to continue") == whole.err.rfind("there is nothing to continue"));
 }
 
+// As a launcher of another MPI would: its variables are set, and the library that was built with knows none of them.
+TEST_CASE_METHOD(Launched, "the launcher of another MPI is refused, and both are named", "[app][ranks]") {
+    if (!has_ranks()) return;
+    for (const std::string variable : {"PMI_SIZE=3", "PMIX_RANK=2"}) {
+        const Outcome outcome = run("run stand.toml --quiet --output single", variable);
+        CHECK(outcome.code == 1);
+        CHECK_THAT(outcome.err, Contains("3 processes or more (" + variable + ")"));
+        CHECK_THAT(outcome.err, Contains("MPI") && Contains("sees one"));
+        CHECK_FALSE(fs::exists(path() / "single"));
+    }
+    CHECK(run("run stand.toml --quiet --steps 2 --output single", "PMI_SIZE=1 PMIX_RANK=0").code == 0);
+}
+
+TEST_CASE_METHOD(Launched, "SIGUSR1 to mpiexec ends all ranks after their step, with a checkpoint", "[app][ranks]") {
+    if (!has_ranks()) return;
+    write("patient.l", models::patient);
+    write("two.toml", "[[plant]]\nmodel = \"patient.l\"\ngrid = { columns = 2, rows = 1, spacing = 1 }\n");
+    const std::string script = "cd '" + path().string() + "' && { " + mpiexec +
+                               "-n 2 '" ESPALIER_PROGRAM
+                               "' run two.toml --threads 1 --output out & launcher=$!; "
+                               "while [ ! -e out/plants/0002.vtp ] && kill -0 $launcher; do sleep 0.05; done; "
+                               "kill -USR1 $launcher; wait $launcher; } >.out 2>.err";
+    const int code = code_of(std::system(script.c_str()));
+    INFO(text_of(path() / ".err"));
+    CHECK(code == 130);
+    CHECK_THAT(text_of(path() / "out/run.json"), Contains("\"exit\": \"interrupted\""));
+    CHECK(fs::exists(path() / "out/checkpoint"));
+}
+
 TEST_CASE_METHOD(Launched, "ranks that read different files are refused", "[app][ranks]") {
     if (!has_ranks()) return;
     write("rank.sh",

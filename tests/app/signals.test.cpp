@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 
+using Catch::Matchers::Contains;
 using nlohmann::json;
 namespace fs = std::filesystem;
 
@@ -50,7 +51,7 @@ const std::vector<std::string> sweep{"sweep",  "patient.l", "--vary",  "simulati
 }  // namespace
 
 TEST_CASE_METHOD(Patience, "Ctrl-C to the process group of a sweep ends all its runs after their step", "[app]") {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) {
         fs::remove_all(path() / "s");
         const Outcome outcome = run_until(
             sweep, [&] { return has_frames("s/seed=1") && has_frames("s/seed=2"); },
@@ -76,6 +77,33 @@ TEST_CASE_METHOD(Patience, "a terminal that is closed ends a run after its step"
     CHECK(outcome.code == 130);
     CHECK(exit_of("out") == "interrupted");
     CHECK(fs::exists(path() / "out/checkpoint"));
+}
+
+TEST_CASE_METHOD(Patience, "the signals of batch systems end a run after its step, however often they come", "[app]") {
+    const std::pair<int, std::string> signals[] = {
+        {SIGXCPU, "SIGXCPU"}, {SIGUSR1, "SIGUSR1"}, {SIGUSR2, "SIGUSR2"}, {SIGTERM, "SIGTERM"}};
+    for (const auto& [signal, name] : signals) {
+        INFO(name);
+        fs::remove_all(path() / "out");
+        const int times = signal == SIGTERM ? 1 : 3;
+        const Outcome outcome = run_until(
+            {"run", "patient.l", "--output", "out"}, [&] { return has_frames("out"); },
+            [&](pid_t process) {
+                for (int i = 0; i < times; ++i) kill(process, signal);
+            });
+        CHECK(outcome.code == 130);
+        CHECK(exit_of("out") == "interrupted");
+        CHECK(fs::exists(path() / "out/checkpoint"));
+        CHECK_THAT(outcome.err, Contains(name + ": finishing this step"));
+        CHECK_THAT(outcome.err, Contains("`espalier resume out` continues it"));
+    }
+}
+
+TEST_CASE_METHOD(Patience, "a signal that the starter of a run had made ignored stays ignored", "[app]") {
+    run("run patient.l --quiet --steps 400 --output out & run=$!; sleep 0.2; kill -USR1 $run; kill -USR2 $run; wait "
+        "$run",
+        "trap '' USR1 USR2;");
+    CHECK(exit_of("out") == "done");
 }
 
 TEST_CASE_METHOD(Patience, "nohup keeps a run going", "[app]") {

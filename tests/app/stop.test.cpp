@@ -92,6 +92,15 @@ const std::vector<Work> works{
      "lsystem: 1\nStartEach: { for (j = 0; Q > 1 && j < 1e4; j += 1) { for (i = 0; i < 1e4; i += 1) { "
      "printf(\"%1000d\", 1); } } }\n"
      "derivation length: 9\naxiom: F\nF --> F\nendlsystem\n"},
+    {"printing into a file", 1,
+     "lsystem: 1\nStart: { f = fopen(\"it.txt\", \"w\"); }\n"
+     "StartEach: { for (i = 0; Q > 1 && i < 1e6; i += 1) { fprintf(f, \"%999999d%999999d%999999d\", 1, 2, 3); "
+     "fclose(f); f = fopen(\"it.txt\", \"w\"); } }\n"
+     "derivation length: 9\naxiom: F\nF --> F\nendlsystem\n"},
+    {"filling an array", 1,
+     "lsystem: 1\ndefine: { array a[20000000]; }\n"
+     "StartEach: { for (j = 0; Q > 1 && j < 1000; j += 1) { for (i = 0; i < 2e7; i += 1) { a[i] = i; } } }\n"
+     "derivation length: 9\naxiom: F\nF --> F\nendlsystem\n"},
     {"a decomposition that writes nothing", 1,
      header + "B\nB : Q > 1 --> A(0)\ndecomposition\nmaximum depth: 60\n" + vanishing},
     {"a homomorphism that draws nothing", 1,

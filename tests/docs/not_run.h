@@ -69,6 +69,8 @@ inline const std::vector<NotRun>& not_run() {
         {"docs/clusters.md",
          "mpiexec -n 4 espalier run environments/forest.toml --output output/forest-on-four --checkpoint-every 10",
          "mpiexec must be told about root; tests/app/ranks.test.cpp does", ""},
+        {"docs/clusters.md", "kill -USR1 $(pidof mpiexec)",
+         "needs a run of mpiexec, and would end those of others; tests/app/ranks.test.cpp signals its own", ""},
         {"docs/clusters.md", "mpiexec -n 3 espalier resume output/forest-on-four",
          "needs a run that was interrupted; tests/app/ranks.test.cpp kills a rank", ""},
         {"docs/clusters.md", "sbatch --nodes=4 docs/run.slurm environments/forest.toml output/forest-on-nodes",

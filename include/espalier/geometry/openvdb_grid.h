@@ -26,7 +26,11 @@ struct FieldGrid {
 /// openvdb::initialize(), once.
 void initialize_openvdb();
 
-/// A uniform-voxel grid whose voxel (0,0,0) has its centre at `origin` + voxel/2.
+/// A grid of uniform voxels whose voxel (0,0,0) has its centre at the origin. Throws UserError for voxels that are
+/// smaller than OpenVDB allows, 1.5e-5 m.
+openvdb::math::Transform::Ptr voxel_transform(double voxel);
+
+/// The same with voxel (0,0,0) at `origin` + voxel/2.
 openvdb::math::Transform::Ptr cell_centred_transform(double voxel, const glm::dvec3& origin);
 
 }  // namespace espalier::geometry

@@ -39,6 +39,7 @@ struct StudioOptions {
     Opened opened = {};                         ///< an empty path: the page begins with the library
     bool is_named = true;                       ///< the user named it: it is opened even where unsaved work is kept
     int port = 0;                               ///< 0: any that is free
+    std::size_t memory = 0;                     ///< most bytes of one growth; 0: default_memory(), of a link 1 GiB
     /// Reads what is opened as `espalier run` does. Called on several threads. Throws UserError.
     std::function<Scene(const Opened&)> read;
     std::function<std::vector<LibraryEntry>()> library;

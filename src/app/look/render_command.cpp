@@ -272,6 +272,7 @@ private:
         run_.steps = growth_.steps();
         run_.seed = growth_.seed();
         run_.memory = growth_.memory();
+        run_.trust = growth_.trust();
         std::optional<DefaultOutput> unnamed;
         if (run_.output.empty()) run_.output = unnamed.emplace(run_.model.file.stem().string()).path();
         RunArguments silent = run_;

@@ -9,15 +9,17 @@
 #include "app/look/gallery_page.h"
 #include "app/model_arguments.h"
 #include "app/model_library.h"
+#include "app/options.h"
 #include "app/program_data.h"
 #include "app/temporary_folder.h"
 #include "base/folder.h"
 #include "base/platform.h"
+#include "base/state_folder.h"
+#include "simulation/run/named_programs.h"
 
 #include <fmt/format.h>
 
 #include <atomic>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <random>
@@ -39,12 +41,11 @@ fs::path view_beside(const fs::path& model) {
 
 // Who has the address of the studio may write into its documents what he likes.
 void require_no_programs(const Scene& scene) {
-    for (const auto& [name, table] : scene.environment.processes) {
-        if (table.text_or("process", "") != "external") continue;
-        throw UserError(table.place("process"),
+    for (const NamedProgram& program : programs_of(scene)) {
+        throw UserError(program.place,
                         fmt::format("process '{}' is a program of its own, which the studio starts only with "
-                                    "`espalier studio --programs`; `espalier run` starts it",
-                                    name));
+                                    "`espalier studio --programs`; `espalier run` starts it, once you agree",
+                                    program.process));
     }
 }
 
@@ -58,15 +59,9 @@ Scene read(const Opened& opened) {
     return scene_of_object(object_of(arguments), options);
 }
 
-/// Where people keep what programs leave between their runs (XDG base directory specification).
 fs::path state_file(const fs::path& folder) {
-    const char* state = std::getenv("XDG_STATE_HOME");
-    const char* home = std::getenv("HOME");
-    const fs::path base = state && *state ? fs::path(state)
-                          : home && *home ? fs::path(home) / ".local/state"
-                                          : fs::path();
-    if (base.empty()) return {};
-    return base / "espalier" / fmt::format("studio-{:016x}.json", digest(folder.string()));
+    const fs::path states = state_folder();
+    return states.empty() ? states : states / fmt::format("studio-{:016x}.json", digest(folder.string()));
 }
 
 class Library {
@@ -190,6 +185,9 @@ public:
             ->check(CLI::Range(0, 65535));
         app().add_flag("--programs", programs_,
                        "start the environment programs that documents name, but never those of a shared link");
+        app().add_option("--memory", memory_,
+                         "memory that a growth may use, such as 4G; default: half of the machine, and 1G for what "
+                         "came by a link");
         app().add_flag("--no-browser", no_browser_, "print the address instead of opening it");
         app().footer(
             R"(The page runs in the browser; this program serves it, to this machine alone, until Ctrl-C ends it. The address
@@ -220,6 +218,7 @@ Examples:
         options.scratch = scratch.path();
         options.state = state_file(options.folder);
         options.port = port_;
+        if (!memory_.empty()) options.memory = size_in_bytes(memory_, "--memory");
         options.read = [programs = programs_](const Opened& opened) {
             Scene scene = read(opened);
             if (!programs) require_no_programs(scene);
@@ -270,6 +269,7 @@ private:
     }
 
     fs::path what_, folder_;
+    std::string memory_;
     int port_ = 0;
     bool no_browser_ = false, programs_ = false;
 };

@@ -8,6 +8,7 @@
 #include "app/child.h"
 #include "app/command.h"
 #include "app/temporary_folder.h"
+#include "app/trust.h"
 #include "base/csv_file.h"
 #include "base/folder.h"
 #include "base/platform.h"
@@ -146,6 +147,17 @@ RunArguments Sweep::arguments_of(const Variant& variant) const {
     return arguments;
 }
 
+void Sweep::agree_on_programs() {
+    std::vector<NamedProgram> programs;
+    try {
+        programs = programs_of(arguments_of(runs_.front().variant));
+    } catch (const UserError&) {
+        return;  // the run itself will say what is wrong
+    }
+    require_trust(programs, base_.trust);
+    base_.trust = !programs.empty();
+}
+
 RecordedTable Sweep::first_statistics() const {
     RunArguments arguments = arguments_of(runs_.front().variant);
     arguments.steps = 0;
@@ -177,6 +189,7 @@ std::vector<std::string> Sweep::command(const SweepRun& run) const {
     if (base_.threads > 0) words.insert(words.end(), {"--threads", std::to_string(base_.threads)});
     if (base_.memory > 0) words.insert(words.end(), {"--memory", std::to_string(base_.memory)});
     if (base_.disk > 0) words.insert(words.end(), {"--disk", std::to_string(base_.disk)});
+    if (base_.trust) words.emplace_back("--trust");
     return words;
 }
 

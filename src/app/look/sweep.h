@@ -29,6 +29,9 @@ public:
     Sweep(const RunArguments& base, const std::vector<Variation>& variations, const std::filesystem::path& folder);
 
     const std::vector<SweepRun>& runs() const { return runs_; }
+    /// The runs have no terminal on which to ask whether they may start the programs that their files name: the user is
+    /// asked here, for the first of them. Throws UserError if they may not.
+    void agree_on_programs();
     /// Returns statistics.csv as the first run has it at step 0; nothing if it cannot be grown.
     RecordedTable first_statistics() const;
     /// Those that have not ended yet, or whose inputs or values have changed since.

@@ -69,11 +69,12 @@ Examples:
         const fs::path what = model_.arguments().file;
         if (!fs::exists(what, error))
             throw UserError(fmt::format("cannot read {}: the file does not exist", what.string()));
-        const Sweep sweep(base(), variations(), folder());
+        Sweep sweep(base(), variations(), folder());
         if (list_) {
             for (const SweepRun* run : sweep.to_do()) print(sweep.command(*run));
             return exit_code::done;
         }
+        sweep.agree_on_programs();
         require_statistics(sweep);
         const Sweep::Outcome outcome = sweep.run(jobs(), quiet_);
         if (outcome.interrupted) return exit_code::interrupted;
@@ -113,6 +114,7 @@ private:
         arguments.steps = growth_.steps();
         arguments.seed = growth_.seed();
         arguments.memory = growth_.memory();
+        arguments.trust = growth_.trust();
         arguments.disk = disk_.bytes();
         arguments.threads = threads_ > 0 ? threads_ : list_ ? 0 : std::max(1, cores() / jobs());
         return arguments;

@@ -9,6 +9,7 @@
 #include "app/options.h"
 #include "app/run_command.h"
 #include "app/temporary_folder.h"
+#include "app/trust.h"
 #include "base/number.h"
 #include "base/platform.h"
 #include "picture_options.h"
@@ -35,6 +36,7 @@ public:
         if (arguments.threads > 0) add({"--threads", std::to_string(arguments.threads)});
         if (arguments.memory > 0) add({"--memory", std::to_string(arguments.memory)});
         if (arguments.checkpoint_every > 0) add({"--checkpoint-every", std::to_string(arguments.checkpoint_every)});
+        if (arguments.trust) add({"--trust"});
         child_ = start_run(words, fs::current_path(), log_);
     }
 
@@ -153,6 +155,9 @@ private:
         arguments_.steps = growth_.steps();
         arguments_.seed = growth_.seed();
         arguments_.memory = growth_.memory();
+        const std::vector<NamedProgram> programs = programs_of(arguments_);
+        require_trust(programs, growth_.trust());
+        arguments_.trust = !programs.empty();  // the process that grows it has no terminal to ask on
         std::optional<DefaultOutput> unnamed;
         if (arguments_.output.empty()) {
             arguments_.output = unnamed.emplace(arguments_.model.file.stem().string()).path();

@@ -8,7 +8,7 @@
 namespace espalier::app {
 
 /// The ranks that the launcher started; null if none did, or a single one. MPI is a module, opened only here. Throws
-/// RunError if there are ranks but no module.
+/// RunError if there are ranks but no module, UserError if that module's MPI knows nothing of the launcher's others.
 std::unique_ptr<Ranks> ranks_of_launcher();
 
 }  // namespace espalier::app

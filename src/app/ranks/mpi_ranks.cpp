@@ -32,7 +32,7 @@ public:
 
     // All ranks come here when the run has ended or failed for all. One that fails alone must not let them wait.
     ~MpiRanks() override {
-        if (!is_agreed()) MPI_Abort(MPI_COMM_WORLD, 2);
+        if (!is_agreed() && count_ > 1) MPI_Abort(MPI_COMM_WORLD, 2);
         MPI_Finalize();
     }
 
@@ -95,6 +95,23 @@ private:
 }  // namespace
 }  // namespace espalier::app
 
-extern "C" espalier::Ranks* espalier_ranks() {
+extern "C" {
+
+espalier::Ranks* espalier_ranks() {
     return new espalier::app::MpiRanks;
+}
+
+/// "Open MPI v4.1.4", "MPICH Version: 4.0.2".
+const char* espalier_mpi_library() {
+    static const std::string name = [] {
+        char text[MPI_MAX_LIBRARY_VERSION_STRING];
+        int length = 0;
+        MPI_Get_library_version(text, &length);
+        std::string first(text, static_cast<std::size_t>(length));
+        first.resize(std::min(first.find_first_of(",\n"), first.size()));
+        std::replace(first.begin(), first.end(), '\t', ' ');
+        return first;
+    }();
+    return name.c_str();
+}
 }

@@ -150,7 +150,7 @@ struct LimbLevelSet::Body {
     void fill_grid() {
         const auto background = static_cast<float>(half_band * voxel);
         grid = openvdb::FloatGrid::create(background);
-        grid->setTransform(openvdb::math::Transform::createLinearTransform(voxel));
+        grid->setTransform(voxel_transform(voxel));
         grid->setGridClass(openvdb::GRID_LEVEL_SET);
         std::vector<std::unique_ptr<Leaf>> leaves(blocks.size());
         tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) { leaves[i] = leaf_of(blocks[i]); });

@@ -3,6 +3,7 @@
 #include "espalier/environment/environment.h"
 
 #include "base/parallel.h"
+#include "base/reason.h"
 #include "environment/exchange/answering.h"
 #include "environment/exchange/communication.h"
 #include "turtle/asking.h"
@@ -290,8 +291,8 @@ void Environment::consult(std::size_t process, const WorldView& world) {
     } catch (const UserError&) {
         throw;
     } catch (const std::exception& error) {
-        throw RunError(
-            fmt::format("step {}: process '{}' ({}): {}", world.step, names_[process], kinds_[process], error.what()));
+        throw RunError(fmt::format("step {}: process '{}' ({}): {}", world.step, names_[process], kinds_[process],
+                                   reason_of(error)));
     }
     require_finite(process, world);
     round_answers(process);

@@ -145,7 +145,8 @@ digits    0, 0 to 17; significant digits of the numbers it is sent, 0: all
 
 Each step is a text in the protocol of cpfg's environment programs, which docs/environment-processes.md explains. A
 program that ends, answers what it was not asked, or does not answer in time ends the run.
-For what came by a link no program is started.
+You are asked on a terminal whether files of the folder may start programs; elsewhere --trust says so. For what came by a
+link no program is started.
 )",
                                      construct<External>}};
 

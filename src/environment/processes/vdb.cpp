@@ -20,7 +20,8 @@ public:
         : name_(std::move(name)), memory_(memory) {
         const std::string grid = settings.text_or("grid", "");
         const auto read = [&](const Settings& table) {
-            return read_grid_map({table.path("file"), table.place("file"), grid, settings.place("grid")});
+            return read_grid_map(
+                {table.path("file"), table.place("file"), grid, settings.place("grid"), memory - bytes_});
         };
         if (!settings.has("maps")) add(0, read(settings), settings.place("file"));
         for (const Settings& table : settings.tables("maps")) {

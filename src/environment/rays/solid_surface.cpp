@@ -34,7 +34,7 @@ openvdb::FloatGrid::Ptr distances(const Shape& solid, double voxel, const Box& b
         }
     });
     auto grid = openvdb::FloatGrid::create(width);
-    grid->setTransform(openvdb::math::Transform::createLinearTransform(voxel));
+    grid->setTransform(voxel_transform(voxel));
     grid->setGridClass(openvdb::GRID_LEVEL_SET);
     openvdb::tools::copyFromDense(dense, *grid, 0.0f);
     return grid;

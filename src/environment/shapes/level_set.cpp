@@ -62,7 +62,7 @@ openvdb::FloatGrid::Ptr to_level_set(const TriangleMesh& mesh, double voxel) {
         points.emplace_back(static_cast<float>(point.x), static_cast<float>(point.y), static_cast<float>(point.z));
     }
     for (const auto& [a, b, c] : mesh.triangles) triangles.emplace_back(a, b, c);
-    const auto transform = openvdb::math::Transform::createLinearTransform(voxel);
+    const auto transform = voxel_transform(voxel);
     Interrupter interrupter;
     openvdb::util::NullInterrupter& asked = interrupter;
     auto grid = openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(asked, *transform, points, triangles, band_beside);

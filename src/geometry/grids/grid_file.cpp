@@ -6,11 +6,11 @@
 #include "espalier/geometry/openvdb_grid.h"
 
 #include "geometry/grids/active_values.h"
+#include "geometry/grids/vdb_file.h"
 #include "geometry/grids/written_grid.h"
 
 #include <fmt/format.h>
 #include <openvdb/io/Archive.h>
-#include <openvdb/io/Stream.h>
 
 #include <sstream>
 #include <string_view>
@@ -85,13 +85,15 @@ std::string bytes_of(const FieldGrid& grid) {
 }
 
 std::shared_ptr<const FieldGrid> grid_from_bytes(const std::string& bytes) {
-    initialize_openvdb();
     try {
         std::istringstream in(bytes, std::ios::binary);
-        const openvdb::GridPtrVecPtr grids = openvdb::io::Stream(in, /*delayLoad=*/false).getGrids();
-        const auto grid = grids->empty() ? nullptr : openvdb::gridPtrCast<openvdb::FloatGrid>(grids->front());
+        VdbFile file(in, memory_for_grids());
+        const auto grid =
+            file.names().empty() ? nullptr : openvdb::gridPtrCast<openvdb::FloatGrid>(file.read(file.names().front()));
         if (!grid) throw RunError("these bytes hold no grid");
         return std::make_shared<FieldGrid>(FieldGrid{grid, grid->evalActiveVoxelBoundingBox()});
+    } catch (const VdbError& error) {
+        throw RunError(fmt::format("these bytes hold no grid: {}", error.what()));
     } catch (const openvdb::Exception& error) {
         throw RunError(fmt::format("these bytes hold no grid: {}", error.what()));
     }

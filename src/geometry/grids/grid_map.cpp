@@ -4,11 +4,12 @@
 #include "espalier/geometry/openvdb_grid.h"
 
 #include "base/text.h"
+#include "geometry/grids/vdb_file.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <openvdb/io/Stream.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace espalier::geometry {
@@ -16,29 +17,39 @@ namespace {
 
 using FieldGrids = std::vector<std::shared_ptr<const FieldGrid>>;
 
-openvdb::GridPtrVec read_grids(const std::filesystem::path& path, const Place& place) {
-    initialize_openvdb();
-    try {
-        std::istringstream in(read_text(path), std::ios::binary);
-        const openvdb::GridPtrVecPtr grids = openvdb::io::Stream(in, /*delayLoad=*/false).getGrids();
-        if (!grids->empty()) return *grids;
-    } catch (const UserError& error) {
-        throw UserError(place, error.what());
-    } catch (const std::exception& error) {
-        throw UserError(place, fmt::format("{} is no OpenVDB file: {}", path.string(), error.what()));
-    }
-    throw UserError(place, fmt::format("{} holds no grid", path.string()));
+/// A grid of vectors of floats and the three grids that are made of it: the most that is held at once.
+constexpr std::size_t most_copies = 2;
+
+std::string chosen_name(const std::vector<std::string>& names, const MapSource& source) {
+    if (names.empty()) throw UserError(source.place, fmt::format("{} holds no grid", source.path.string()));
+    if (source.grid.empty()) return names.front();
+    if (std::find(names.begin(), names.end(), source.grid) != names.end()) return source.grid;
+    throw UserError(source.place_of_grid, fmt::format("the file has no grid '{}'{}; it has: {}", source.grid,
+                                                      did_you_mean(source.grid, names), fmt::join(names, ", ")));
 }
 
-openvdb::GridBase::Ptr chosen_grid(const openvdb::GridPtrVec& grids, const MapSource& source) {
-    const std::string wanted = source.grid.empty() ? grids.front()->getName() : source.grid;
-    std::vector<std::string> names;
-    for (const openvdb::GridBase::Ptr& grid : grids) {
-        if (grid->getName() == wanted) return grid;
-        names.push_back(grid->getName());
+std::string bytes_of_file(const MapSource& source) {
+    try {
+        return read_text(source.path);
+    } catch (const UserError& error) {
+        throw UserError(source.place, error.what());
     }
-    throw UserError(source.place_of_grid, fmt::format("the file has no grid '{}'{}; it has: {}", wanted,
-                                                      did_you_mean(wanted, names), fmt::join(names, ", ")));
+}
+
+openvdb::GridBase::Ptr read_grid(const MapSource& source) {
+    std::istringstream in(bytes_of_file(source), std::ios::binary);
+    const auto fail = [&](const std::exception& error) {
+        return UserError(source.place,
+                         fmt::format("{} is no OpenVDB file that is read: {}", source.path.string(), error.what()));
+    };
+    try {
+        VdbFile file(in, source.memory / most_copies);
+        return file.read(chosen_name(file.names(), source));
+    } catch (const VdbError& error) {
+        throw fail(error);
+    } catch (const openvdb::Exception& error) {
+        throw fail(error);
+    }
 }
 
 /// A grid of floats with what `part` takes of each value.
@@ -73,7 +84,7 @@ bool add_vectors(const openvdb::GridBase& grid, FieldGrids& found) {
 }  // namespace
 
 GridMap read_grid_map(const MapSource& source) {
-    const openvdb::GridBase::Ptr grid = chosen_grid(read_grids(source.path, source.place), source);
+    const openvdb::GridBase::Ptr grid = read_grid(source);
     GridMap map{grid->getName(), {}};
     const bool is_known =
         add_numbers<openvdb::FloatGrid>(*grid, map.parts) || add_numbers<openvdb::DoubleGrid>(*grid, map.parts) ||

@@ -23,6 +23,7 @@ struct MapSource {
     Place place;       ///< of the path
     std::string grid;  ///< empty: the first
     Place place_of_grid;
+    std::size_t memory = std::size_t(-1);  ///< most bytes that reading it may take
 };
 
 /// Throws UserError at the places of `source`.

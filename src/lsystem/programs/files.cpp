@@ -1,6 +1,7 @@
 #include "lsystem/programs/files.h"
 
 #include "espalier/base/file.h"
+#include "espalier/base/stop.h"
 
 #include "base/bytes.h"
 #include "base/folder.h"
@@ -54,6 +55,8 @@ ModelFiles::ModelFiles(fs::path input_folder, fs::path output_folder)
     : input_(std::move(input_folder)), output_(std::move(output_folder)) {}
 
 ModelFiles::~ModelFiles() {
+    const StopRequest* const request = StopRequest::current();
+    if (request && request->is_asked()) return;  // what a dropped step has printed is dropped with it
     try {
         flush_all();
     } catch (const RunError&) {

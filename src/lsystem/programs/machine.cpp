@@ -217,6 +217,9 @@ double Machine::print(const PrintCall& call, const Place& place) {
                                     call.format.conversions(), call.arguments.size()));
     }
     const std::string text = filled(call, registers_.data());
+    if (text.size() > most_printed_at_once) {
+        throw EvaluationError(place, fmt::format("more than {} bytes are printed at once", most_printed_at_once));
+    }
     if (!call.file) {
         services_->print(text);
     } else if (const double file = registers_[*call.file]; !services_->files->print(file, text, place)) {

@@ -1,5 +1,9 @@
 #include "lsystem/programs/print_format.h"
 
+#include "espalier/base/stop.h"
+
+#include "lsystem/programs/limits.h"
+
 #include <cmath>
 #include <cstdio>
 
@@ -65,7 +69,8 @@ PrintFormat::PrintFormat(std::string_view format) {
 
 std::string PrintFormat::fill(const std::vector<Value>& values) const {
     std::string text;
-    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+    for (std::size_t k = 0; k < pieces_.size() && text.size() <= most_printed_at_once; ++k) {
+        end_if_asked();
         const Piece& piece = pieces_[k];
         text += piece.before;
         const Value value = k < values.size() ? values[k] : Value();

@@ -1,12 +1,23 @@
 // The memory of the machine and of this process.
 #include "espalier/simulation/simulation.h"
 
+#include "base/link_mark.h"
 #include "base/platform.h"
+#include "simulation/run/allowed_memory.h"
+
+#include <algorithm>
 
 namespace espalier::simulation {
 
 std::size_t default_memory() {
     return platform::machine_memory() / 2;
+}
+
+std::size_t allowed_memory(std::size_t asked, const std::filesystem::path& what) {
+    if (asked > 0) return asked;
+    std::error_code unknown;
+    const std::filesystem::path whole = std::filesystem::absolute(what, unknown);
+    return folder_of_link(whole) ? std::min(memory_of_links, default_memory()) : default_memory();
 }
 
 std::size_t peak_memory() {

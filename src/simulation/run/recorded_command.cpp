@@ -72,6 +72,20 @@ std::set<fs::path> timeline_files(const fs::path& folder) {
     return files;
 }
 
+std::vector<NamedProgram> programs_in(const Json& json, const fs::path& run) {
+    std::vector<NamedProgram> programs;
+    const Json processes = json.value("processes", Json::object());
+    for (const auto& [name, process] : processes.items()) {
+        if (process.value("process", "") != "external") continue;
+        NamedProgram& program = programs.emplace_back();
+        program.process = name;
+        program.command = process.value("command", std::vector<std::string>());
+        program.place.file = (run / "run.json").string();
+        program.folder = resolved(run);
+    }
+    return programs;
+}
+
 }  // namespace
 
 RecordedCommand read_command(const fs::path& run) {
@@ -100,6 +114,7 @@ RecordedCommand read_command(const fs::path& run) {
             }
             command.inputs.emplace(path, input_of(input));
         }
+        command.programs = programs_in(json, run);
         return command;
     } catch (const Json::exception&) {
         throw UserError(fmt::format("{} does not say how to repeat the run", file.string()));

@@ -3,6 +3,8 @@
 
 #include "espalier/base/read_log.h"
 
+#include "simulation/run/named_programs.h"
+
 #include <filesystem>
 #include <map>
 #include <string>
@@ -16,6 +18,7 @@ struct RecordedCommand {
     std::filesystem::path folder;        ///< where it was started
     std::vector<std::string> arguments;  ///< for `espalier run`, without --output and what does not change the timeline
     std::map<std::filesystem::path, ReadLog::File> inputs;
+    std::vector<NamedProgram> programs;  ///< that it started, as its run.json says
 };
 
 /// Throws UserError if the folder holds no run, or one from before runs could be repeated.

@@ -5,6 +5,7 @@
 #include "espalier/timeline/timeline.h"
 
 #include "base/bytes.h"
+#include "base/reason.h"
 #include "simulation/run/disk_budget.h"
 #include "simulation/run/run_record.h"
 #include "simulation/run/sealed_file.h"
@@ -60,7 +61,7 @@ public:
                 if (options_.recorder && is_first(options_.ranks)) options_.recorder->finish();
             });
         } catch (const std::exception& error) {
-            end_failed(error.what());
+            end_failed(reason_of(error));
             throw;
         }
         if (!cut_short) review();

@@ -3,6 +3,8 @@
 #include "espalier/base/error.h"
 #include "espalier/base/stop.h"
 
+#include "base/reason.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +34,7 @@ Outcome outcome_of(const std::function<void()>& work) {
     } catch (const std::bad_alloc&) {
         return {Failure::run, "the machine has no memory left; set a limit with --memory", std::current_exception()};
     } catch (const std::exception& error) {
-        return {Failure::run, error.what(), std::current_exception()};
+        return {Failure::run, reason_of(error), std::current_exception()};
     }
 }
 

@@ -304,10 +304,14 @@ void World::keep_on_disk(const std::filesystem::path& folder, std::size_t in_mem
     state.store = std::make_unique<PlantStore>(folder, state.plants, in_memory);
 }
 
+// With the arrays and files of their models, which a checkpoint holds, too.
 std::size_t World::bytes_of_strings() const {
     if (state_->store) return state_->store->bytes();
+    const ModuleString none;
     std::size_t bytes = 0;
-    for (const GrowingPlant& plant : state_->plants) bytes += plant.string->content();
+    for (const GrowingPlant& plant : state_->plants) {
+        bytes += plant.string->content() + plant.derivation.working_memory(none);
+    }
     return bytes;
 }
 

@@ -4,6 +4,8 @@
 #include "espalier/simulation/simulation.h"
 #include "espalier/timeline/last_frame.h"
 
+#include "base/reason.h"
+#include "simulation/run/allowed_memory.h"
 #include "studio/document/document_files.h"
 #include "studio/packets/textures.h"
 
@@ -51,7 +53,7 @@ void ExportRun::work() {
         if (!stop_.is_asked()) done_(std::move(files), "");
     } catch (const Stopped&) {
     } catch (const std::exception& error) {
-        if (!stop_.is_asked()) done_({}, error.what());
+        if (!stop_.is_asked()) done_({}, reason_of(error));
     }
     ended_ = true;
 }
@@ -77,6 +79,7 @@ RecordedRun ExportRun::grow() {
         options.recorder = &last;
     }
     options.overwrite = true;
+    options.memory = allowed_memory(order_.memory, order_.opened.path);
     options.inputs = &reads;
     options.progress = [this](const Progress& progress) {
         if (progress.steps > 0) progressed_(double(progress.step) / progress.steps);

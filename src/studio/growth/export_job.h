@@ -28,6 +28,7 @@ struct ExportOrder {
     std::filesystem::path scratch;
     std::function<Scene(const Opened&)> read;
     std::optional<ReadPermission> permission = {};  ///< none: it may read everything
+    std::size_t memory = 0;                         ///< most bytes that growing may take; 0: the default
 };
 
 /// Below which the files of an export lie.

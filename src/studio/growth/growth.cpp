@@ -2,6 +2,8 @@
 
 #include "espalier/simulation/simulation.h"
 
+#include "base/reason.h"
+#include "simulation/run/allowed_memory.h"
 #include "studio/growth/derivation_length.h"
 #include "studio/growth/inquiry.h"
 #include "studio/growth/organ_columns.h"
@@ -30,7 +32,7 @@ std::vector<Diagnostic> said(const std::string& message) {
 
 std::vector<Diagnostic> diagnostics_of(const std::exception& error) {
     if (const auto* user = dynamic_cast<const UserError*>(&error)) return user->diagnostics();
-    return said(error.what());
+    return said(reason_of(error));
 }
 
 std::unique_ptr<Recorder> statistics_of(const World& world, const fs::path& folder) {
@@ -59,11 +61,12 @@ constexpr double most_unseen = 0.3;
 
 /// What the growth is at; of its own thread.
 struct Growth::Work {
-    Work(const Scene& grown, const fs::path& folder, std::shared_ptr<Printout> prints)
+    Work(const Scene& grown, std::size_t bytes, const fs::path& folder, std::shared_ptr<Printout> prints)
         : scene(grown),
+          memory(bytes),
           files(folder),
           printout(std::move(prints)),
-          world(grown, default_memory(), folder, printout),
+          world(grown, memory, folder, printout),
           statistics(statistics_of(world, folder)),
           statistics_file(folder / "statistics.csv") {}
 
@@ -77,11 +80,12 @@ struct Growth::Work {
 
     /// Instead of one that was left in the midst of a step.
     void renew_world() {
-        world = World(scene, default_memory(), files, printout);
+        world = World(scene, memory, files, printout);
         at = -1;
     }
 
     const Scene& scene;
+    const std::size_t memory;
     const fs::path files;
     const std::shared_ptr<Printout> printout;
     World world;
@@ -192,7 +196,7 @@ void Growth::live() {
         if (cancelled_) return;
         const fs::path folder = order_.scratch / fmt::format("files-{}", number());
         fs::create_directories(folder);
-        Work work(scene, folder, printed_.printout());
+        Work work(scene, allowed_memory(order_.memory, order_.opened.path), folder, printed_.printout());
         start.files = reads.files();  // processes have read theirs, such as meshes
         begin(work, std::move(start));
         grow(work);

@@ -36,6 +36,7 @@ struct GrowthOrder {
     std::filesystem::path scratch;  ///< a folder for its files
     std::function<Scene(const Opened&)> read;
     std::optional<ReadPermission> permission = {};  ///< none: it may read everything
+    std::size_t memory = 0;                         ///< most bytes that it may take; 0: the default
     /// The steps of an earlier growth, which need not be derived again if only looks have changed; may be null.
     std::shared_ptr<const KeptSteps> before = nullptr;
     /// Pages do not ask to see it grow up to this step: where drawing can wait, what pages look at is drawn first.

@@ -3,6 +3,7 @@
 #include "espalier/base/file.h"
 
 #include "base/json_text.h"
+#include "base/reason.h"
 #include "simulation/run/recorded_command.h"
 
 #include <fmt/format.h>
@@ -94,7 +95,7 @@ void find_sky(const fs::path& folder, const fs::path& root, GrowthStart& start) 
         if (start.sky) start.sky->at_step(start.last_step);
     } catch (const std::exception& error) {
         start.sky.reset();
-        start.warnings.push_back(warning(fmt::format("the scene's sun does not show: {}", error.what())));
+        start.warnings.push_back(warning(fmt::format("the scene's sun does not show: {}", reason_of(error))));
     }
 }
 
@@ -167,7 +168,7 @@ void Recording::live() {
         }
     } catch (const std::exception& error) {
         Diagnostic why;
-        why.message = error.what();
+        why.message = reason_of(error);
         if (!cancelled_) listener_.failed(number(), {why});
     }
 }
@@ -184,7 +185,7 @@ void Recording::begin() {
         const fs::path scratch = order_.scratch / fmt::format("run-{}", number());
         find_sky(run_->folder(), find_source(run_->folder(), scratch, start), start);
     } catch (const std::exception& error) {
-        start.warnings.push_back(warning(fmt::format("it can be watched, but not edited: {}", error.what())));
+        start.warnings.push_back(warning(fmt::format("it can be watched, but not edited: {}", reason_of(error))));
     }
     const std::shared_ptr<const DrawnFrame> last = frame(frames.size() - 1);
     columns_ = last->columns();

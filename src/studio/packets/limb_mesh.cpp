@@ -5,6 +5,7 @@
 #include "archive/meshes/axis_lines.h"
 #include "archive/meshes/skin.h"
 #include "archive/meshes/surface_mesh.h"
+#include "base/reason.h"
 #include "studio/packets/message_bytes.h"
 
 #include <array>
@@ -133,7 +134,7 @@ void LimbRun::work() {
         std::string bytes = limb_mesh(*order_, may_continue);
         if (!cancelled_) done_(std::move(bytes), "");
     } catch (const std::exception& error) {
-        if (!cancelled_) done_("", error.what());
+        if (!cancelled_) done_("", reason_of(error));
     }
     ended_ = true;
 }

@@ -4,6 +4,7 @@
 
 #include "base/folder.h"
 #include "base/json_text.h"
+#include "base/reason.h"
 #include "studio/document/document_files.h"
 #include "studio/document/plain_name.h"
 
@@ -109,7 +110,7 @@ void DocumentDisk::keep() {
         }
         write_private_text(options_.state, json_text(state, -1));
     } catch (const std::exception& error) {
-        pages_.notify("warning", fmt::format("unsaved work cannot be kept: {}", error.what()));
+        pages_.notify("warning", fmt::format("unsaved work cannot be kept: {}", reason_of(error)));
     }
 }
 

@@ -67,6 +67,7 @@ GrowthOrder Growths::next_order() {
         order.before = shown_->source().shared_steps();
     }
     order.permission = permission_of(now.opened.path, options_.library_folder);
+    order.memory = options_.memory;
     order.unseen_to = follow_from_;
     for (const auto& viewer : pages_.all()) {
         if (viewer->step) order.looked_at.insert(*viewer->step);

@@ -1,5 +1,6 @@
 #include "studio/session/session.h"
 
+#include "base/reason.h"
 #include "studio/session/request.h"
 
 #include <fmt/format.h>
@@ -70,7 +71,7 @@ void Session::receive(Page& page, const std::string& text) {
         reply["reply"] = request["id"];
         reply.update(request_named(name_of(request)).answer(parts_, *viewer, request));
     } catch (const std::exception& error) {
-        reply["error"] = error.what();
+        reply["error"] = reason_of(error);
     }
     Pages::send(*viewer, reply);
     // What a page shows at first it is told behind the reply to its greeting.
@@ -98,7 +99,7 @@ void Session::guard(const std::function<void()>& work) {
     try {
         work();
     } catch (const std::exception& error) {
-        parts_.pages.notify("error", error.what());
+        parts_.pages.notify("error", reason_of(error));
     }
 }
 

@@ -52,6 +52,7 @@ Nothing export_run(SessionParts& session, Viewer&, const ExportRequest& request)
     order.scratch = session.options.scratch;
     order.read = session.options.read;
     order.permission = permission_of(order.opened.path, session.options.library_folder);
+    order.memory = session.options.memory;
     session.jobs.begin_export(std::move(order));
     return {};
 }
