@@ -151,10 +151,10 @@ TEST_CASE_METHOD(Own, "without consent no command starts a program, and each say
           "[[plant]]\nmodel = \"external/bush.l\"\n[environment.light]\nprocess = \"external\"\n"
           "command = [\"touch\", \"external/started\"]\n");
     const std::string object = " external/bush.l --environment external/bush.e";
-    for (const std::string command :
-         {"run" + object + " --output a", "derive" + object, "sweep" + object + " --vary simulation.seed=1 --output s",
-          "render" + object + " --output a.png", "view" + object + " --screenshot a.png", std::string("run scene.toml --output a"),
-          std::string("derive scene.toml"), std::string("run scene.toml --set plant.0.name=x --output a")}) {
+    for (const std::string& command : std::vector<std::string>{
+             "run" + object + " --output a", "derive" + object, "sweep" + object + " --vary simulation.seed=1 --output s",
+             "render" + object + " --output a.png", "view" + object + " --screenshot a.png",
+             "run scene.toml --output a", "derive scene.toml", "run scene.toml --set plant.0.name=x --output a"}) {
         INFO(command);
         const Outcome outcome = run(command + " --steps 1");
         CHECK(outcome.code == 1);

@@ -9,7 +9,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-std::size_t count(const std::string& text, std::string_view part) {
+std::size_t times_told(const std::string& text, std::string_view part) {
     std::size_t found = 0;
     for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
     return found;
@@ -30,13 +30,13 @@ public:
         INFO(what << ": " << warning);
         const Outcome checked = run("check " + what);
         CHECK(checked.code == 0);
-        CHECK(count(checked.out, warning) == 1);
-        for (const std::string command : {"run " + what + " --output out --overwrite", "derive " + what}) {
+        CHECK(times_told(checked.out, warning) == 1);
+        for (const std::string& command : {"run " + what + " --output out --overwrite", "derive " + what}) {
             for (const char* quiet : {"", " --quiet"}) {
                 const Outcome outcome = run(command + quiet);
                 INFO(command << quiet << ": " << outcome.err);
                 CHECK(outcome.code == 0);
-                CHECK(count(outcome.err, warning) == 1);
+                CHECK(times_told(outcome.err, warning) == 1);
             }
         }
     }
@@ -73,9 +73,9 @@ TEST_CASE_METHOD(Warned, "a process that no plant asks is told by run, derive an
     write("mute.l", model("FA", "A --> FA\n"));
     write("scene.toml", "[[plant]]\nmodel = 'mute.l'\n[environment.light]\nprocess = 'voxel-shade'\nvoxel = 0.5\n");
     const char* const warning = "no plant asks the process 'light'";
-    CHECK(count(run("check scene.toml").out, warning) == 1);
-    CHECK(count(run("run scene.toml --output out").err, warning) == 1);
-    CHECK(count(run("derive scene.toml").err, warning) == 1);
+    CHECK(times_told(run("check scene.toml").out, warning) == 1);
+    CHECK(times_told(run("run scene.toml --output out").err, warning) == 1);
+    CHECK(times_told(run("derive scene.toml").err, warning) == 1);
     CHECK(run("run scene.toml --output out --overwrite --quiet").err == "");
 }
 
@@ -83,7 +83,7 @@ TEST_CASE_METHOD(Warned, "a plant of which nothing was drawn is told at the end 
     write("bare.l", model("A", "A --> AB\n"));
     const Outcome outcome = run("run bare.l --output out --quiet");
     CHECK(outcome.code == 0);
-    CHECK(count(outcome.err, "bare.l: warning: nothing was drawn of this model in 2 steps") == 1);
+    CHECK(times_told(outcome.err, "bare.l: warning: nothing was drawn of this model in 2 steps") == 1);
     // A string is all that derive prints, so it may be all there is.
     CHECK(run("derive bare.l").err.find("drawn") == std::string::npos);
 }
@@ -92,7 +92,7 @@ TEST_CASE_METHOD(Warned, "a sweep tells the warnings of its model once, not once
     write("open.l", "#define N 1\n" + model("F(N)[+F(N)", "F(x) --> F(x)F(x)\n"));
     const Outcome outcome = run("sweep open.l --vary N=1:3:3 --output swept --quiet");
     CHECK(outcome.code == 0);
-    CHECK(count(outcome.err, "']' is missing") == 1);
+    CHECK(times_told(outcome.err, "']' is missing") == 1);
 }
 
 TEST_CASE_METHOD(Warned, "a text without quotes and a path with backslashes are told what to write", "[app]") {

@@ -275,6 +275,8 @@ TEST_CASE("a crown lies in its cloud, and its height and width are those of the 
                                      {"CROWN_HEIGHT", height},
                                      {"CUT_BELOW", 0.2},
                                      {"RAGGED", 0},
+                                     {"UPWARDS", 0.1},
+                                     {"AXIS_INTERNODES", 400},
                                      {"AGE", 70}},
                                     seed);
             Box box;

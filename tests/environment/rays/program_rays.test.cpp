@@ -15,7 +15,7 @@ using namespace espalier::environment;
 namespace {
 
 /// One query, and the module behind it as a turtle stands at both.
-struct Shape {
+struct AskedShape {
     glm::dvec3 place;
     std::string symbol;
     std::vector<double> sizes;
@@ -34,14 +34,14 @@ public:
     }
 
     /// `count` answers of each shape.
-    std::vector<double> answers(const std::vector<Shape>& shapes, std::size_t count = 1, int step = 1) {
+    std::vector<double> answers(const std::vector<AskedShape>& shapes, std::size_t count = 1, int step = 1) {
         EnvironmentContext context;
         context.plants = 1;
         context.warnings = &warnings;
         Environment environment({{"E", table_.table("E")}}, context);
         AskingPlants plants({"E"});
         std::vector<Asked> asked;
-        for (const Shape& shape : shapes) {
+        for (const AskedShape& shape : shapes) {
             std::vector<double> parameters(count, 0);
             parameters[0] = shape.first;
             asked.push_back({shape.place, parameters, "E"});
@@ -76,7 +76,7 @@ const std::string common =
 const std::string green = "leaf material (top): 0.1 0 0.2 0 1\n";
 
 /// Two level rhombi of half a square metre, a metre apart.
-std::vector<Shape> two_rhombi() {
+std::vector<AskedShape> two_rhombi() {
     return {{{0, 2, 0}, "P", {0.5, 1}}, {{0, 1, 0}, "P", {0.5, 1}}};
 }
 
