@@ -167,7 +167,7 @@ void get_state(std::istream& in, GrowingPlant& plant, std::size_t memory) {
     restore_string(*plant.string, memory, in);
     plant.note_derived();
     plant.memory = get<PlantMemory>(in);
-    plant.born = 0;  // it was saved with its numbers
+    plant.is_numbered = true;
     if (plant.numbers) plant.numbers->restore(in);
 }
 
