@@ -33,9 +33,9 @@ maximum depth: 3
 endlsystem
 )";
 
-const char* const growing = R"(#define SIDES 2  /* laterals of an apex; 0..9 whole */
+const char* const growing = R"(#define SIDES 2  /* laterals of an apex; 0..9 */
 lsystem: 1
-derivation length: 9
+derivation length: 5
 axiom: A
 A : SIDES >= 3 --> F [ A ] [ A ] [ A ] A
 A : SIDES < 3 --> F [ A ] A

@@ -28,7 +28,8 @@ public:
         const std::uint64_t first = number - birth.place;
         if (row == none) {
             row = birth.siblings;
-            string_.siblings.added(row).first_number = first;
+            // A row that is right already may be read by others.
+            if (string_.siblings[row].first_number != first) string_.siblings.added(row).first_number = first;
         } else if (first_number_of(row) != first) {
             Siblings more = string_.siblings[birth.siblings];
             more.first_number = first;

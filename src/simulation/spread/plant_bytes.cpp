@@ -168,7 +168,7 @@ void get_state(std::istream& in, GrowingPlant& plant, std::size_t memory) {
     require_modules_of(plant.model().alphabet, *plant.string);
     plant.note_derived();
     plant.memory = get<PlantMemory>(in);
-    plant.born = 0;  // it was saved with its numbers
+    plant.is_numbered = true;
     if (plant.numbers) plant.numbers->restore(in);
 }
 

@@ -41,16 +41,17 @@ GrowingPlant::GrowingPlant(std::uint32_t plant, const Plant& from, std::shared_p
 
 void GrowingPlant::count_births() {
     born = 0;
-    if (!string->has_lineage()) return;
+    is_numbered = !string->has_lineage();
+    if (is_numbered) return;
     const auto step = static_cast<std::uint32_t>(derivation.steps_done());
     born = numbers ? numbers->unknown(*string) : lsystem::births_in(*string, step);
 }
 
 void GrowingPlant::number_births() {
-    if (born == 0) return;
+    if (is_numbered) return;
     if (numbers)
         numbers->number(*string, births_before);
-    else
+    else if (born > 0)
         lsystem::number_births(*string, static_cast<std::uint32_t>(derivation.steps_done()), births_before);
 }
 
@@ -70,6 +71,7 @@ void GrowingPlant::give_away() {
     is_here = false;
     memory = {};
     born = 0;
+    is_numbered = true;
     hold(std::make_shared<const ModuleString>(), std::make_shared<const Interpretation>());
     note_received();
 }

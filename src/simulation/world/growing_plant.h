@@ -71,10 +71,11 @@ public:
     alignas(64) PlantMemory memory;
     // As derivation leaves them: to look them up elsewhere would cost much of a small plant's step.
     std::size_t modules = 0;
-    std::size_t born = 0;  ///< in this step; 0: they are not counted, or have their numbers already
+    std::size_t born = 0;  ///< in this step, unless they are not counted
     int length = 0;
     bool stopped = false;
-    bool is_here = true;  ///< false: another rank holds it, and what it sent of the plant is all there is
+    bool is_numbered = true;  ///< the string came with its numbers
+    bool is_here = true;      ///< false: another rank holds it, and what it sent of the plant is all there is
     const Plant* description;
     Derivation derivation;
     std::size_t modules_before = 0;

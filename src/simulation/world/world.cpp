@@ -340,7 +340,7 @@ void World::take(const DerivedStep& derived) {
         std::istringstream memory(from.memory);
         plant.derivation.restore(memory);
         plant.string.hold(from.string);
-        plant.born = 0;
+        plant.is_numbered = true;
         plant.note_derived();
         state_->memory.count_strings(plant);
     }
