@@ -230,11 +230,11 @@ TEST_CASE_METHOD(BadInput, "the file system's complaints are told in words", "[a
 }
 
 TEST_CASE_METHOD(BadInput, "a voxel that fields cannot have is refused with its place, in words", "[app]") {
-    write("ask.l", "environment p;\nlsystem: 1\nderivation length: 1\naxiom: F(1)A?p(0)\nendlsystem\n");
+    write("ask.l", "environment p;\nlsystem: 1\nderivation length: 1\naxiom: F(0.0000005)A?p(0)\nendlsystem\n");
     for (const std::string process : {"voxel-shade", "soil-water", "canopy-light"}) {
         INFO(process);
         write("small.toml",
-              "[simulation]\ndomain = { lower = [0, 0, 0], upper = [1e-5, 1e-5, 1e-5] }\n"
+              "[simulation]\ndomain = { lower = [0, 0, 0], upper = [1e-6, 1e-6, 1e-6] }\n"
               "[[plant]]\nmodel = \"ask.l\"\n[environment.p]\nprocess = \"" +
                   process + "\"\nvoxel = 1e-7\n");
         const Outcome outcome = run("run small.toml --quiet --output no");
