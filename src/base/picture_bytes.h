@@ -66,7 +66,8 @@ enum class PngOpacity { left_out, kept };
 
 /// Portable Network Graphics (ISO/IEC 15948). Channels of less than 8 bits are given as 8. Throws UserError, also for
 /// more than `most` pixels.
-PngPicture read_png(const PictureBytes& bytes, PngOpacity opacity = PngOpacity::left_out, std::size_t most = most_pixels);
+PngPicture read_png(const PictureBytes& bytes, PngOpacity opacity = PngOpacity::left_out,
+                    std::size_t most = most_pixels);
 
 /// Microsoft's bitmaps, uncompressed, of 8, 24 or 32 bits a pixel. Throws UserError.
 Picture read_bitmap(const PictureBytes& bytes);

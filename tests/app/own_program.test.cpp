@@ -152,9 +152,10 @@ TEST_CASE_METHOD(Own, "without consent no command starts a program, and each say
           "command = [\"touch\", \"external/started\"]\n");
     const std::string object = " external/bush.l --environment external/bush.e";
     for (const std::string& command : std::vector<std::string>{
-             "run" + object + " --output a", "derive" + object, "sweep" + object + " --vary simulation.seed=1 --output s",
-             "render" + object + " --output a.png", "view" + object + " --screenshot a.png",
-             "run scene.toml --output a", "derive scene.toml", "run scene.toml --set plant.0.name=x --output a"}) {
+             "run" + object + " --output a", "derive" + object,
+             "sweep" + object + " --vary simulation.seed=1 --output s", "render" + object + " --output a.png",
+             "view" + object + " --screenshot a.png", "run scene.toml --output a", "derive scene.toml",
+             "run scene.toml --set plant.0.name=x --output a"}) {
         INFO(command);
         const Outcome outcome = run(command + " --steps 1");
         CHECK(outcome.code == 1);

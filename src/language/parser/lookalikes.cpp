@@ -62,12 +62,10 @@ constexpr std::array lookalikes{
 };
 
 /// Letters of other alphabets that look like these, one for one.
-constexpr std::
-    u32string_view
-        other_letters =
-            U"\u0391\u0392\u0395\u0396\u0397\u0399\u039A\u039C\u039D\u039F\u03A1\u03A4\u03A5\u03A7\u03BF"  // Greek
-            U"\u0410\u0412\u0415\u041A\u041C\u041D\u041E\u0420\u0421\u0422\u0425\u0430\u0435\u043E\u0440\u0441\u0443"
-            U"\u0445";  // Cyrillic
+constexpr std::u32string_view other_letters =
+    U"\u0391\u0392\u0395\u0396\u0397\u0399\u039A\u039C\u039D\u039F\u03A1\u03A4\u03A5\u03A7\u03BF"  // Greek
+    U"\u0410\u0412\u0415\u041A\u041C\u041D\u041E\u0420\u0421\u0422\u0425\u0430\u0435\u043E\u0440\u0441\u0443"
+    U"\u0445";  // Cyrillic
 constexpr std::string_view latin_letters = "ABEZHIKMNOPTYXoABEKMHOPCTXaeopcyx";
 static_assert(other_letters.size() == latin_letters.size());
 
