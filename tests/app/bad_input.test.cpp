@@ -55,7 +55,7 @@ TEST_CASE_METHOD(BadInput, "mistakes on the command line exit with 1 and offer t
     for (const std::string layer : {"0", "-1", "nan", "inf", "1m"}) {
         const Outcome outcome = run("analyse out --layer " + layer);
         CHECK(outcome.code == 1);
-        CHECK_THAT(outcome.err, Contains("--layer: expected a number above 0, found " + layer));
+        CHECK_THAT(outcome.err, Contains("--layer: ") && Contains("number") && Contains(layer));
     }
     CHECK_THAT(run("run bush.l --memory lots").err, Contains("512M or 4G"));
     CHECK(run("run bush.l --memory -1G").code == 1);
@@ -351,7 +351,7 @@ TEST_CASE_METHOD(BadInput, "a second interrupt stops at once", "[app]") {
           "lsystem: 1\nStartEach: { if (Q > 1) { while (1) { n = 1; } } }\nderivation length: 3\naxiom: F\n"
           "F --> FF\nendlsystem\n");
     const auto says_it_finishes = [&] {
-        return text_of(path() / ".err").find("again to stop at once") != std::string::npos;
+        return text_of(path() / ".err").find("a second time: stopping at once") != std::string::npos;
     };
     const Outcome outcome = run_until(
         {"run", "endless.l", "--output", "out"}, [&] { return fs::exists(path() / "out/plants/0001.vtp"); },

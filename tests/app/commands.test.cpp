@@ -132,7 +132,7 @@ TEST_CASE_METHOD(Workplace, "list knows scenes from descriptions of meshes, and 
 
 TEST_CASE_METHOD(Workplace, "quiet is quiet, json is json, and a pipe gets about ten lines", "[app]") {
     write("bush.l", models::bush);
-    write("patient.l", models::patient);
+    write("calm.l", "lsystem: 1\nderivation length: 300\naxiom: F(1)\nF(x) --> F(x + 0.001)\nendlsystem\n");
     const Outcome quiet = run("run bush.l --quiet --output a");
     CHECK(quiet.out.empty());
     CHECK(quiet.err.empty());
@@ -143,7 +143,7 @@ TEST_CASE_METHOD(Workplace, "quiet is quiet, json is json, and a pipe gets about
     CHECK(parsed["steps_done"] == 5);
     CHECK(parsed["modules"] > 100);
 
-    const Outcome piped = run("run patient.l --steps 300 --output c");
+    const Outcome piped = run("run calm.l --output c");
     CHECK(lines_in(piped.err) == 10);
     CHECK_THAT(piped.err, Contains("step 300/300"));
     CHECK_THAT(piped.err, !Contains("\r"));
