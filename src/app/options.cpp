@@ -23,6 +23,8 @@ std::optional<double> bytes_of_unit(const std::string& unit) {
     return std::pow(1024.0, static_cast<double>(power + 1));
 }
 
+constexpr const char* above_zero_name = "ABOVE 0";
+
 std::string_view without_plus(std::string_view text) {
     return text.starts_with('+') ? text.substr(1) : text;
 }
@@ -74,7 +76,8 @@ void read_decimal_numbers(CLI::App& command) {
     for (CLI::Option* option : command.get_options()) {
         const std::string type = option->get_type_name();
         for (const std::string word : {"INT", "UINT", "FLOAT"}) {
-            if (type != word && !type.starts_with(word + ":")) continue;
+            const bool checks_itself = type.ends_with(above_zero_name);
+            if (checks_itself || (type != word && !type.starts_with(word + ":"))) continue;
             option->transform(
                 CLI::Validator([word](std::string& text) { return to_decimal(text, word); }, "", "decimal"));
         }
@@ -93,7 +96,7 @@ CLI::Validator above_zero() {
         const std::optional<double> value = finite_number(text);
         return value && *value > 0 ? std::string() : fmt::format("expected a number above 0, found {}", text);
     };
-    return {check, "ABOVE 0"};
+    return {check, above_zero_name};
 }
 
 ModelOptions::ModelOptions(CLI::App& command, const std::string& name, const std::string& help, Files files) {

@@ -51,7 +51,7 @@ Settings table_of(const Settings& scene, const std::string& dotted) {
 path scene_of(const std::string& kind, const std::string& name) {
     for (const pages::Block& block : pages::blocks_of("docs/reference/" + kind + "/" + name + ".md")) {
         for (const std::string& line : block.lines) {
-            if (line.starts_with("espalier run ")) return pages::root / line.substr(13);
+            if (line.starts_with("espalier run ")) return pages::root / line.substr(13, line.find(' ', 13) - 13);
         }
     }
     throw std::runtime_error("no scene shows the part " + name);
