@@ -49,8 +49,9 @@ void Growths::begin_next() {
     waits_ = false;
     is_busy_ = true;
     retired_.add(std::move(next_));
-    disk_.note_opening();
-    is_opening_ = true;
+    // Of a document that has been shown, changes may be lost half-way: it is found again with them.
+    is_opening_ = is_opening_ || document_.path() != opened_;
+    if (is_opening_) disk_.note_opening();
     GrowthOrder order = next_order();
     if (is_run(document_.path())) {
         next_ = std::make_unique<Recording>(std::move(order), listener_, workers_);
@@ -191,7 +192,9 @@ void Growths::note_stopped(std::uint32_t growth) {
 
 // The newest growth shows something, or says why not.
 void Growths::note_opened(std::uint32_t growth) {
-    if (growth == last_number_ && std::exchange(is_opening_, false)) disk_.note_opened();
+    if (growth != last_number_ || !std::exchange(is_opening_, false)) return;
+    opened_ = document_.path();
+    disk_.note_opened();
 }
 
 void Growths::note_failed(std::uint32_t growth, const std::vector<Diagnostic>& why) {

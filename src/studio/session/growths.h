@@ -16,6 +16,7 @@
 #include "studio/session/statistics.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -80,9 +81,10 @@ private:
     RetiredGrowths retired_;
     GrowthProgress progress_;
     Pace pace_;
-    int follow_from_ = 0;      ///< pages that look at the last step see every one from here on
-    bool is_opening_ = false;  ///< the newest growth has shown nothing yet
-    bool is_busy_ = false;     ///< the newest growth has not come to its end
+    int follow_from_ = 0;           ///< pages that look at the last step see every one from here on
+    bool is_opening_ = false;       ///< no growth of the document has shown anything yet
+    std::filesystem::path opened_;  ///< the last document of which one has
+    bool is_busy_ = false;          ///< the newest growth has not come to its end
 };
 
 }  // namespace espalier::studio
