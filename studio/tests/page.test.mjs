@@ -279,7 +279,7 @@ test("the sun of a scene goes its way through the steps, lights the plant, and c
   assert.ok(Math.abs(noon - 68) <= 1, `${noon}`);
   await shot(page, "sun-noon");
   assert.match(await look(1), /dark/);
-  const evening = height(await look(17));
+  const evening = height(await look(18)); // from 17 to 18 hours
   assert.ok(evening < 35 && evening > 15, `${evening}`);
   const flip = async () => {
     await page.getByRole("button", { name: /^What is drawn/ }).click();
