@@ -7,16 +7,68 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
+#include <optional>
+
 namespace espalier::language {
 
+namespace {
+
+std::string head_of(const std::filesystem::path& path) {
+    constexpr std::size_t enough = 4096;
+    if (!is_readable(path)) return "";
+    std::ifstream file(path, std::ios::binary);
+    std::string head(enough, '\0');
+    file.read(head.data(), static_cast<std::streamsize>(enough));
+    head.resize(static_cast<std::size_t>(file.gcount()));
+    return head;
+}
+
+MeasuredPlants measured(const NotationType& notation, const std::string& text, const std::filesystem::path& path,
+                        const MeasuredOptions& options) {
+    require_text(text, path.string());
+    MeasuredPlants plants = notation.measure(with_plain_lines(text), path, options);
+    plants.path = path;
+    for (auto axis = plants.axes.rbegin(); axis != plants.axes.rend(); ++axis) {
+        if (!axis->bearer) plants.plants[axis->plant].base = axis->nodes.front().at;
+    }
+    plants.separate = options.separate.value_or(true);
+    return plants;
+}
+
+}  // namespace
+
 const NotationType* notation_of(const std::filesystem::path& path) {
+    std::optional<std::string> head;
     for (const auto& [name, notation] : registered<NotationType>()) {
-        if (path.extension() == notation->extension) return notation;
+        if (path.extension() != notation->extension) continue;
+        if (!notation->recognises) return notation;
+        if (!head) head = head_of(path);
+        if (notation->recognises(*head)) return notation;
     }
     return nullptr;
 }
 
+bool holds_measured_plants(const std::filesystem::path& path) {
+    const NotationType* const notation = notation_of(path);
+    return notation && notation->measure;
+}
+
+MeasuredPlants read_measured_plants(const std::filesystem::path& path, const MeasuredOptions& options) {
+    const NotationType* const notation = notation_of(path);
+    if (notation && notation->measure) return measured(*notation, read_text(path), path, options);
+    std::string extensions;
+    for (const auto& [name, known] : registered<NotationType>()) {
+        if (known->measure) extensions += " " + known->extension;
+    }
+    throw UserError(fmt::format("{} is no file of measured plants: their extensions are{}", path.string(), extensions));
+}
+
 TranslatedText translated(const NotationType& notation, const std::string& text, const std::filesystem::path& path) {
+    if (notation.measure) {
+        const MeasuredPlants plants = measured(notation, text, path, {});
+        return {measured_model_text(plants), {}, plants.warnings};
+    }
     require_text(text, path.string());
     return notation.translate(with_plain_lines(text), path);
 }

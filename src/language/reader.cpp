@@ -50,7 +50,15 @@ std::shared_ptr<const Model> read(TranslatedText text, const std::string& name, 
 }  // namespace
 
 std::shared_ptr<const Model> read_model(const std::filesystem::path& path, const ReadOptions& options) {
-    if (notation_of(path)) {
+    const NotationType* const notation = notation_of(path);
+    if (notation && notation->measure) {
+        const MeasuredPlants plants = read_measured_plants(path);
+        if (options.warnings) {
+            options.warnings->insert(options.warnings->end(), plants.warnings.begin(), plants.warnings.end());
+        }
+        return measured_model(plants, std::nullopt, options);
+    }
+    if (notation) {
         return read(translated(path), path.string(), path, path.parent_path(), options);
     }
     return read({read_text(path)}, path.string(), path, path.parent_path(), options);

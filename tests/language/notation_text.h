@@ -13,7 +13,7 @@ struct NotationText {
     std::string notation, file;
 
     std::string model_of(const std::string& text) const {
-        return registered<NotationType>().at(notation)->translate(text, file).text;
+        return language::translated(*registered<NotationType>().at(notation), text, file).text;
     }
     /// "tree.mtg:1:2: message", or "" where there is none.
     std::string mistake(const std::string& text) const {

@@ -6,6 +6,7 @@
 #include "espalier/lsystem/alphabet.h"
 #include "espalier/lsystem/arithmetic.h"
 #include "espalier/lsystem/expression.h"
+#include "espalier/lsystem/module_string.h"
 #include "espalier/lsystem/resources.h"
 
 #include <filesystem>
@@ -75,6 +76,8 @@ struct LSystem {
     std::vector<std::string> external_globals;
     Block start, start_each, end_each, end;
     std::vector<ModuleTemplate> axiom;
+    /// Stands for the axiom, in which each of its letters occurs; null: the axiom stands for itself.
+    std::shared_ptr<const ModuleString> given_axiom;
     std::vector<Production> productions;
     RuleSet decomposition, homomorphism;
 };

@@ -3,6 +3,7 @@
 #include "espalier/base/file.h"
 
 #include "app/command.h"
+#include "app/measured_report.h"
 #include "app/progress.h"
 #include "base/json_text.h"
 #include "base/text.h"
@@ -206,13 +207,17 @@ int info(const InfoArguments& arguments) {
 
 class Info final : public Command {
 public:
-    explicit Info(CLI::App& program) : Command(program, "info", "summarise a run") {
-        app().add_option("folder", folder_, "the folder of a run")->required();
+    explicit Info(CLI::App& program) : Command(program, "info", "summarise a run, or a file of measured plants") {
+        app().add_option("folder", folder_, "the folder of a run, or a file (rsml, mtg, ...)")->required();
         add_json_flag("print as JSON");
-        app().footer("Example:\n  espalier info output/two-trees");
+        app().footer("Examples:\n  espalier info output/two-trees\n  espalier info root.rsml");
     }
 
-    int run() override { return info({folder_, wants_json()}); }
+    int run() override {
+        if (!fs::is_regular_file(folder_)) return info({folder_, wants_json()});
+        report_measured(read_measured_plants(folder_), wants_json());
+        return exit_code::done;
+    }
 
 private:
     std::filesystem::path folder_;

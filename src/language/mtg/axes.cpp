@@ -1,5 +1,8 @@
 #include "language/mtg/axes.h"
 
+#include "language/measured/joining.h"
+#include "language/measured/units.h"
+
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
@@ -10,7 +13,6 @@
 namespace espalier::language::mtg {
 namespace {
 
-constexpr int most_orders = 60;
 constexpr double diameter_if_unknown = 0.005;  ///< m
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
@@ -21,13 +23,17 @@ struct Spot {
 
 class Axes {
 public:
-    Axes(const Graph& graph, const std::string& name)
-        : graph_(graph), name_(name), chain_of_(graph.vertices.size(), none) {
-        if (graph.unit == "cm") metres_ = 0.01;
-        if (graph.unit == "mm") metres_ = 0.001;
-        if (graph.unit != "m" && metres_ == 1) {
-            throw UserError(Place{name, 1, 1},
-                            fmt::format("the unit '{}' is not known: write m, cm or mm", graph.unit));
+    Axes(const Graph& graph, const std::string& name, const MeasuredOptions& options)
+        : graph_(graph),
+          name_(name),
+          unit_(options.unit.empty() ? graph.unit : options.unit),
+          up_(options.up.empty() ? graph.up : options.up),
+          chain_of_(graph.vertices.size(), none) {
+        try {
+            metres_ = options.pixel ? *options.pixel : measured::metres_of_unit(unit_);
+            upright_ = measured::upright(up_);
+        } catch (const UserError& error) {
+            throw UserError(Place{name, 1, 1}, error.diagnostics().front().message);
         }
         for (const Vertex& vertex : graph.vertices) {
             if (position(vertex)) scale_ = std::max(scale_, vertex.scale);
@@ -35,13 +41,18 @@ public:
         if (scale_ < 0) throw UserError(Place{name, 1, 1}, "no entity of this file has numbers in XX, YY and ZZ");
     }
 
-    rsml::Document document() {
+    MeasuredPlants plants() {
         for (std::size_t v = 0; v < graph_.vertices.size(); ++v) {
             if (graph_.vertices[v].scale == scale_) chain(v);
         }
         for (const std::vector<std::size_t>& axis : chains_) add(axis);
-        document_.has_times = graph_.column.count("birth") > 0;
-        return std::move(document_);
+        MeasuredPlants plants;
+        plants.has_times = graph_.column.count("birth") > 0;
+        plants.axes = measured::joined(std::move(axes_));
+        plants.plants.resize(1);
+        plants.unit = unit_;
+        plants.up = up_;
+        return plants;
     }
 
 private:
@@ -49,7 +60,7 @@ private:
         const auto x = graph_.number(vertex, {"xx", "x"}), y = graph_.number(vertex, {"yy", "y"}),
                    z = graph_.number(vertex, {"zz", "z"});
         if (!x || !y || !z) return std::nullopt;
-        return metres_ * (graph_.up == "y" ? glm::dvec3(*x, *y, *z) : glm::dvec3(*x, *z, -*y));
+        return metres_ * (upright_ * glm::dvec3(*x, *y, *z));
     }
 
     /// One axis goes on from each entity; what else follows it begins another.
@@ -66,7 +77,7 @@ private:
     }
 
     void add(const std::vector<std::size_t>& axis) {
-        rsml::Root root;
+        measured::LooseAxis root;
         const Vertex& first = graph_.vertices[axis.front()];
         const Spot bearer = first.parent ? on_[*first.parent] : Spot();
         root.place = first.place;
@@ -74,19 +85,15 @@ private:
         if (bearer.axis != none) {
             root.bearer = bearer.axis;
             root.on_node = bearer.node;
-            root.order = document_.roots[bearer.axis].order + 1;
-            if (root.order > most_orders) {
-                throw UserError(first.place, fmt::format("axes branch more often than {} times", most_orders));
-            }
-            root.nodes.push_back(document_.roots[bearer.axis].nodes[bearer.node]);
+            root.nodes.push_back(axes_[bearer.axis].nodes[bearer.node]);
         }
         fill(axis, root, bearer);
-        if (root.nodes.size() > (root.bearer ? 1u : 0u)) document_.roots.push_back(std::move(root));
+        if (root.nodes.size() > (root.bearer ? 1u : 0u)) axes_.push_back(std::move(root));
     }
 
     /// The nodes of an axis, and where each of its entities lies.
-    void fill(const std::vector<std::size_t>& axis, rsml::Root& root, const Spot& bearer) {
-        const std::size_t number = document_.roots.size();
+    void fill(const std::vector<std::size_t>& axis, measured::LooseAxis& root, const Spot& bearer) {
+        const std::size_t number = axes_.size();
         std::vector<std::size_t> waiting;  // for the next with coordinates
         for (const std::size_t v : axis) {
             waiting.push_back(v);
@@ -107,7 +114,7 @@ private:
     }
 
     /// A trunk begins a length of its first entity below that, against the direction to the next one.
-    void add_foot(const std::vector<std::size_t>& axis, const glm::dvec3& end, rsml::Root& root) const {
+    void add_foot(const std::vector<std::size_t>& axis, const glm::dvec3& end, measured::LooseAxis& root) const {
         const std::optional<double> length = graph_.number(graph_.vertices[axis.front()], {"length", "len"});
         if (!length || !(*length > 0)) return;
         glm::dvec3 along(0, 1, 0);
@@ -120,28 +127,29 @@ private:
         root.nodes.push_back(node(axis.front(), end - metres_ * *length * along, root));
     }
 
-    rsml::Node node(std::size_t v, const glm::dvec3& at, const rsml::Root& root) const {
+    MeasuredNode node(std::size_t v, const glm::dvec3& at, const measured::LooseAxis& root) const {
         const Vertex& vertex = graph_.vertices[v];
         const auto diameter = graph_.number(vertex, {"diameter", "diam", "dia", "topdiameter", "topdia"});
-        const rsml::Node before = root.nodes.empty() ? rsml::Node{at, diameter_if_unknown, 0} : root.nodes.back();
+        const MeasuredNode before = root.nodes.empty() ? MeasuredNode{at, diameter_if_unknown, 0} : root.nodes.back();
         const double birth = graph_.number(vertex, {"birth"}).value_or(before.day);
         return {at, diameter && *diameter >= 0 ? metres_ * *diameter : before.diameter, std::max(0.0, birth)};
     }
 
     const Graph& graph_;
-    std::string name_;
+    std::string name_, unit_, up_;
     double metres_ = 1;
+    glm::dmat3 upright_{1};
     int scale_ = -1;
     std::vector<std::size_t> chain_of_;  ///< of each entity
     std::vector<std::vector<std::size_t>> chains_;
     std::map<std::size_t, Spot> on_;  ///< of each entity: an axis of the document, and its node
-    rsml::Document document_;
+    std::vector<measured::LooseAxis> axes_;
 };
 
 }  // namespace
 
-rsml::Document axes_of(const Graph& graph, const std::string& name) {
-    return Axes(graph, name).document();
+MeasuredPlants axes_of(const Graph& graph, const std::string& name, const MeasuredOptions& options) {
+    return Axes(graph, name, options).plants();
 }
 
 }  // namespace espalier::language::mtg

@@ -1,13 +1,14 @@
 // The axes of a multiscale tree graph, as measured lines.
 #pragma once
 
+#include "espalier/language/measured_plants.h"
+
 #include "language/mtg/graph.h"
-#include "language/rsml/document.h"
 
 namespace espalier::language::mtg {
 
 /// The entities of the finest scale that has coordinates, by the succession of which axes consist. Those between two
 /// with coordinates lie evenly between them. Throws UserError if none has coordinates.
-rsml::Document axes_of(const Graph& graph, const std::string& name);
+MeasuredPlants axes_of(const Graph& graph, const std::string& name, const MeasuredOptions& options);
 
 }  // namespace espalier::language::mtg

@@ -2,7 +2,6 @@
 #include "espalier/language/notation.h"
 
 #include "language/mtg/axes.h"
-#include "language/rsml/translation.h"
 
 namespace espalier::language {
 namespace {
@@ -23,9 +22,8 @@ between their neighbours; those beyond the last one of an axis are left out.
 --define DT=0.5 sets the days of a step. Each axis ends with a module Tip(order), where a model made by `espalier translate` can go on
 to grow. Rows of entities (<< and <.) are not read.
 C. Godin, Y. Caraglio: A multiscale model of plant topological structures. Journal of Theoretical Biology 191, 1998.)",
-     [](const std::string& text, const std::filesystem::path& path) {
-         return TranslatedText{
-             rsml::model_of(mtg::axes_of(mtg::read(text, path.string()), path.string()), path.string())};
+     nullptr, [](const std::string& text, const std::filesystem::path& path, const MeasuredOptions& options) {
+         return mtg::axes_of(mtg::read(text, path.string()), path.string(), options);
      }}};
 
 }  // namespace

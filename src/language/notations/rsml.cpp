@@ -1,7 +1,7 @@
 // rsml: measured root systems in the Root System Markup Language (Lobet et al. 2015).
 #include "espalier/language/notation.h"
 
-#include "language/rsml/translation.h"
+#include "language/rsml/document.h"
 
 namespace espalier::language {
 namespace {
@@ -21,8 +21,8 @@ nodes have times.
 
 --define DT=0.5 sets the days of a step. Each root ends with a module Tip(order), where a model made by `espalier translate` can go on
 to grow. G. Lobet et al.: Root System Markup Language. Plant Physiology 167, 2015.)",
-     [](const std::string& text, const std::filesystem::path& path) {
-         return TranslatedText{rsml::model_of(rsml::read(text, path.string()), path.string())};
+     nullptr, [](const std::string& text, const std::filesystem::path& path, const MeasuredOptions& options) {
+         return rsml::read(text, path.string(), options);
      }}};
 
 }  // namespace

@@ -3,6 +3,9 @@
 #include "base/number.h"
 #include "base/text.h"
 #include "base/xml_reader.h"
+#include "language/measured/joining.h"
+#include "language/measured/notes.h"
+#include "language/measured/units.h"
 
 #include <fmt/format.h>
 
@@ -12,12 +15,14 @@
 namespace espalier::language::rsml {
 namespace {
 
-constexpr int most_orders = 60;
+constexpr std::size_t most_orders = 60;
 constexpr double diameter_if_unknown = 0.0005;  ///< m
+
+using measured::LooseAxis;
 
 /// A root as the file has it.
 struct RawRoot {
-    Root root;
+    LooseAxis root;
     std::vector<glm::dvec3> points;
     std::map<std::string, std::vector<double>> functions;
     std::optional<double> diameter;
@@ -25,9 +30,10 @@ struct RawRoot {
 
 class Reader final : public XmlReader {
 public:
-    explicit Reader(const std::string& name) : XmlReader(name) {}
+    Reader(const std::string& name, const MeasuredOptions& options)
+        : XmlReader(name), options_(options), notes_(name) {}
 
-    Document read(const std::string& text) {
+    MeasuredPlants read(const std::string& text) {
         parse(text);
         if (!is_rsml_) fail("this is no RSML file: its outermost element is not <rsml>");
         if (roots_.empty()) fail("this file has no roots");
@@ -44,6 +50,7 @@ private:
 
     void begin(const std::string& element, const XmlAttributes& attributes) override {
         if (element == "rsml") is_rsml_ = true;
+        if (element == "plant") plants_.push_back({attributes.value("label")});
         if (element == "root") return begin_root(attributes);
         if (open_.empty()) return;
         RawRoot& root = roots_[open_.back()];
@@ -69,10 +76,10 @@ private:
         RawRoot root;
         root.root.place = here();
         root.root.label = attributes.value("label");
+        root.root.plant = plants_.empty() ? 0 : plants_.size() - 1;
         if (!open_.empty()) {
             root.root.bearer = open_.back();
-            root.root.order = roots_[open_.back()].root.order + 1;
-            if (root.root.order > most_orders) fail(fmt::format("roots are nested deeper than {}", most_orders));
+            if (open_.size() > most_orders) fail(fmt::format("roots are nested deeper than {}", most_orders));
         }
         open_.push_back(roots_.size());
         roots_.push_back(std::move(root));
@@ -98,25 +105,23 @@ private:
     }
 
     double metres() const {
-        static const std::map<std::string, double> units{{"m", 1},     {"cm", 0.01},     {"mm", 0.001},
-                                                         {"um", 1e-6}, {"inch", 0.0254}, {"dm", 0.1}};
-        const auto found = units.find(unit_.value_or("cm"));
-        if (found == units.end()) {
-            throw UserError(Place{here().file, 1, 1},
-                            fmt::format("the unit '{}' is no length: write m, cm, mm, um or inch as "
-                                        "<unit>, and pixels per unit as <resolution>",
-                                        *unit_));
-        }
-        return found->second / (resolution_ > 0 ? resolution_ : 1);
+        if (options_.pixel) return *options_.pixel;
+        const std::optional<double> metres =
+            options_.unit.empty() ? measured::metres_of(unit_.value_or("cm")) : measured::metres_of_unit(options_.unit);
+        if (metres) return *metres / (resolution_ > 0 ? resolution_ : 1);
+        throw UserError(Place{here().file, 1, 1},
+                        fmt::format("the unit '{}' is no length: write m, cm, mm, um or inch as "
+                                    "<unit>, and pixels per unit as <resolution>",
+                                    *unit_));
     }
 
-    /// The file's axes to x, upwards, and towards us.
-    glm::dvec3 upright(const glm::dvec3& point) const {
-        if (up_ == "y") return point;
-        if (flat_) return {point.x, -point.y, 0};
+    /// Which of the file's axes points upwards.
+    std::string up() const {
+        if (!options_.up.empty()) return options_.up;
+        if (up_ == "y" || up_ == "z") return up_;
+        if (flat_) return "-y";
         const RawRoot& first = roots_[0];
-        const bool down = up_ != "z" && first.points.back().z > first.points.front().z;
-        return down ? glm::dvec3(point.x, -point.z, point.y) : glm::dvec3(point.x, point.z, -point.y);
+        return first.points.back().z > first.points.front().z ? "-z" : "z";
     }
 
     /// The samples of a function for every node; empty if there are none.
@@ -131,25 +136,34 @@ private:
         return {};
     }
 
-    Document finished() const {
-        Document document;
+    MeasuredPlants finished() {
+        MeasuredPlants plants;
         const double scale = metres();
-        for (const RawRoot& raw : roots_) {
-            Root root = raw.root;
+        const glm::dmat3 axes = scale * measured::upright(up());
+        std::vector<LooseAxis> loose;
+        for (RawRoot& raw : roots_) {
             const std::vector<double> diameters = samples(raw, {"diameter"});
             const std::vector<double> times = samples(raw, {"node_creation_time", "emergence_time", "time"});
-            document.has_times = document.has_times || !times.empty();
+            plants.has_times = plants.has_times || !times.empty();
             for (std::size_t i = 0; i < raw.points.size(); ++i) {
                 double diameter = raw.diameter ? scale * *raw.diameter : diameter_if_unknown;
                 if (!diameters.empty()) diameter = scale * diameters[i];
-                root.nodes.push_back(
-                    {scale * upright(raw.points[i]), std::max(diameter, 0.0), times.empty() ? 0 : times[i]});
+                raw.root.nodes.push_back({axes * raw.points[i], std::max(diameter, 0.0), times.empty() ? 0 : times[i]});
             }
-            document.roots.push_back(std::move(root));
+            loose.push_back(std::move(raw.root));
         }
-        return document;
+        plants.axes = measured::joined(std::move(loose));
+        plants.plants = std::move(plants_);
+        if (plants.plants.empty()) plants.plants.emplace_back();
+        plants.unit = unit_.value_or("cm");
+        plants.up = up();
+        plants.warnings = notes_.warnings();
+        return plants;
     }
 
+    const MeasuredOptions& options_;
+    measured::Notes notes_;
+    std::vector<MeasuredPlant> plants_;
     std::vector<RawRoot> roots_;
     std::vector<std::size_t> open_;
     std::string function_, sample_, up_;
@@ -160,8 +174,8 @@ private:
 
 }  // namespace
 
-Document read(const std::string& text, const std::string& name) {
-    return Reader(name).read(text);
+MeasuredPlants read(const std::string& text, const std::string& name, const MeasuredOptions& options) {
+    return Reader(name, options).read(text);
 }
 
 }  // namespace espalier::language::rsml

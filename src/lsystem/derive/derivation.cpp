@@ -28,13 +28,25 @@ void Derivation::start(ModuleString& string) {
 
 void Derivation::State::evaluate_axiom(ModuleString& string) {
     const CompiledSystem& compiled = main;
-    const std::size_t parameters = compiled.axiom.results.size();
-    const Extent extent{compiled.axiom_letters.size(), parameters, 1};
+    const ModuleString* const given = compiled.system->given_axiom.get();
+    const Extent extent{given ? given->size() : compiled.axiom_letters.size(),
+                        given ? given->parameters.size() : compiled.axiom.results.size(), 1};
     const std::size_t bytes = bytes_needed(extent, lineage);
     if (bytes > memory) {
         throw RunError(fmt::format("the axiom takes {} bytes, more than the memory of {}", bytes, memory));
     }
     resize(string, extent, lineage);
+    if (given) {
+        std::copy(given->letters.begin(), given->letters.end(), string.letters.begin());
+        std::copy(given->parameters.begin(), given->parameters.end(), string.parameters.begin());
+    } else {
+        run_axiom(string);
+    }
+    if (lineage) bear_axiom(string);
+}
+
+void Derivation::State::run_axiom(ModuleString& string) {
+    const CompiledSystem& compiled = main;
     std::copy(compiled.axiom_letters.begin(), compiled.axiom_letters.end(), string.letters.begin());
     const std::vector<ModuleTemplate>& modules = compiled.system->axiom;
     in_block(block_machine, "the axiom", [&] {
@@ -52,7 +64,6 @@ void Derivation::State::evaluate_axiom(ModuleString& string) {
             }
         }
     });
-    if (lineage) bear_axiom(string);
 }
 
 void Derivation::State::bear_axiom(ModuleString& string) const {

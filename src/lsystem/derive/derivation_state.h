@@ -30,6 +30,7 @@ struct Derivation::State {
     void evaluate_seed();
     void evaluate_length();
     void evaluate_axiom(ModuleString& string);
+    void run_axiom(ModuleString& string);
     void bear_axiom(ModuleString& string) const;
     void cut(const ModuleString& from);
     std::size_t end_of_cut(const ModuleString& from, std::size_t cut) const;

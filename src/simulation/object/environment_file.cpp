@@ -4,6 +4,7 @@
 #include "espalier/environment/environment_process.h"
 
 #include "base/text.h"
+#include "base/toml_text.h"
 #include "environment/exchange/communication.h"
 #include "geometry/grid_operations.h"
 #include "simulation/object/named_file.h"

@@ -16,19 +16,4 @@ fs::path named_file(const std::string& name, const fs::path& beside, const fs::p
                                        folder.empty() || folder == beside ? "" : " or in " + folder.string()));
 }
 
-std::string toml_text(const std::string& text) {
-    std::string quoted = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') {
-            quoted += '\\';
-            quoted += c;
-        } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-            quoted += fmt::format("\\u{:04X}", static_cast<unsigned char>(c));
-        } else {
-            quoted += c;
-        }
-    }
-    return quoted + "\"";
-}
-
 }  // namespace espalier::simulation

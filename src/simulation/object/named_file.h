@@ -12,7 +12,4 @@ namespace espalier::simulation {
 std::filesystem::path named_file(const std::string& name, const std::filesystem::path& beside,
                                  const std::filesystem::path& folder, const Place& place);
 
-/// A text as TOML writes it, in quotes.
-std::string toml_text(const std::string& text);
-
 }  // namespace espalier::simulation

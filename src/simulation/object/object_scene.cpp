@@ -1,7 +1,7 @@
 // An object as a scene: what a scene file would say of it.
 #include "espalier/simulation/object.h"
 
-#include "simulation/object/named_file.h"
+#include "base/toml_text.h"
 
 #include <fmt/format.h>
 

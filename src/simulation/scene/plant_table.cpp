@@ -5,6 +5,7 @@
 
 #include "simulation/object/side_files.h"
 #include "simulation/scene/keyframes.h"
+#include "simulation/scene/measured_table.h"
 #include "simulation/scene/scene_keyframes.h"
 #include "simulation/world/insertion.h"
 
@@ -154,7 +155,7 @@ public:
             plant.view = side_files_.view(*view, defines, folder);
         }
         plant.palette = side_files_.palette(table);
-        read_model_of(table, defines, plant);
+        const std::vector<Individual> individuals = read_individuals(table, defines, plant);
         for (const std::string& text : table.texts_or("insert", {})) {
             plant.insertions.push_back(read_insertion(text, table.place("insert")));
         }
@@ -168,15 +169,57 @@ public:
         const std::vector<glm::dvec3> places = read_places(table, seed_, stream);
         const std::string name = read_name(table, source_of(*plant.model));
         table.reject_unread();
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            plant.name = places.size() == 1 ? name : fmt::format("{}-{}", name, i + 1);
+        const std::size_t number = places.size() * individuals.size();
+        for (std::size_t i = 0; i < number; ++i) {
+            const Individual& individual = individuals[i % individuals.size()];
+            plant.model = individual.model;
+            plant.name = number == 1 ? name : fmt::format("{}-{}", name, i + 1);
             plant.stream = stream + static_cast<std::uint32_t>(i);
-            plant.turtle.pose.position = places[i];
+            plant.turtle.pose.position = places[i / individuals.size()] + individual.offset;
             plants_.push_back(plant);
         }
     }
 
 private:
+    /// One plant of those that a model stands for: a file of measured plants may hold several.
+    struct Individual {
+        std::shared_ptr<const CompiledModel> model;
+        glm::dvec3 offset{0};  ///< m; from the place of the table's plant
+    };
+
+    /// `plant` gets the model of the first.
+    std::vector<Individual> read_individuals(const Settings& table, const Defines& defines, Plant& plant) {
+        require_file(table, "model");
+        if (!holds_measured_plants(table.path("model"))) {
+            read_model_of(table, defines, plant);
+            return {{plant.model}};
+        }
+        std::vector<Individual> individuals = read_measured(table, defines, plant.view.get());
+        plant.model = individuals.front().model;
+        return individuals;
+    }
+
+    std::vector<Individual> read_measured(const Settings& table, const Defines& defines, const View* view) {
+        const MeasuredPlants measured = read_measured_plants(table.path("model"), read_measured_options(table));
+        notes_.diagnostics.insert(notes_.diagnostics.end(), measured.warnings.begin(), measured.warnings.end());
+        const glm::dvec3 shift = read_measured_shift(table, measured);
+        const ReadOptions options = read_options(defines, read_arithmetic(table), view);
+        if (!measured.separate) return {made(measured, std::nullopt, options, -shift)};
+        std::vector<Individual> individuals;
+        for (std::size_t i = 0; i < measured.plants.size(); ++i) {
+            individuals.push_back(made(measured, i, options, measured.plants[i].base - shift));
+        }
+        return individuals;
+    }
+
+    /// Nobody wrote its model, so that nothing in it is looked at twice.
+    Individual made(const MeasuredPlants& plants, std::optional<std::size_t> plant, const ReadOptions& options,
+                    const glm::dvec3& offset) {
+        Individual individual{compile(measured_model(plants, plant, options)), offset};
+        reviewed_.insert(individual.model.get());
+        return individual;
+    }
+
     void review(const Plant& plant, const Insertions& insertions) {
         if (!reviewed_.insert(plant.model.get()).second) return;
         const std::vector<Diagnostic> found = review_of(plant, insertions);
@@ -191,7 +234,6 @@ private:
     // Keyframes give the model's settings the values of one age, or of each step, which sees them as the plant grows,
     // or from which the plant grows anew.
     void read_model_of(const Settings& table, const Defines& given, Plant& plant) {
-        require_file(table, "model");
         const std::vector<Keyframes> keyframes = read_keyframes(table, table.path("model"));
         const bool has_age = table.has("age"), regrows = table.flag_or("regrow", false);
         const double age = has_age ? table.number("age", Range::not_negative()) : 0;

@@ -271,6 +271,11 @@ const char* scene_help() {
   stage        none; [[plant.stage]] tables, which change what is drawn: { stage = "...", when = true }; with
                when = false a stage is left out. `espalier list stages`
   insert       []; ["X(1)@5", "X@9:F.3"]: modules put into the string of a step, at its beginning or before a module
+  unit, up, pixel, plants, begin   of a file of measured plants (rsml, mtg, ... in `espalier list notations`):
+               unit of its lengths, "m", "dm", "cm", "mm", "um" or "inch"; the axis that points upwards, "x", "y", "z",
+               "-x", "-y" or "-z"; width of a pixel, mm; "separate", each plant of the file is one of its own, or
+               "together"; "file", plants stand where the file has them, from `position`, or "position", the first
+               begins there. Without them they are as the file says
   turtle       {}; overrides the view file: { angle = 45 (degrees), line_width (none), line_width_increment = 0,
                colour = 128, colour_increment = 1, scale = 1, scale_multiplier = 1, past_cut = true,
                tropism = [{ direction = [0, -1, 0], angle = 0 (degrees), elasticity = 0, elasticity_step = 0,

@@ -40,7 +40,7 @@ TEST_CASE("MTG: axes follow by < and are borne by +, with z upwards", "[mtg]") {
                          "\t+A2/U2\t1\t0\t1\t0.1\n"
                          "\t^<U3\t2\t0\t1\t0.1\n"
                          "^<U4\t\t0\t0\t3\t0.2\n")) ==
-          "\n\t[@R(0, 1, 0) f(1) \n\t[ !(0.1) @R(1, 0, 0) F(1) !(0.1) @R(1, 0, 0) F(1) Tip(1)]"
+          "\n\t[@Ax(0) @R(0, 1, 0) f(1)\n\t[!(0.1) @R(1, 0, 0) F(1) !(0.1) @R(1, 0, 0) F(1) Tip(1)]"
           " !(0.2) @R(0, 1, 0) F(2) Tip(0)]");
 }
 
@@ -49,21 +49,21 @@ TEST_CASE("MTG: codes from the root name the same plant as codes that go on", "[
     const std::string whole =
         plant("/P1/A1/U1\t\t0\t0\t1\t1\n/P1/A1/U1<U2\t\t0\t0\t2\t1\n/P1/A1/U1<U2+U3\t\t1\t0\t2\t1\n");
     CHECK(axiom_of(brief) == axiom_of(whole));
-    CHECK_THAT(axiom_of(brief), Catch::Contains("F(1)\n\t[ !(1) @R(1, 0, 0) F(1) Tip(1)] Tip(0)"));
+    CHECK_THAT(axiom_of(brief), Catch::Contains("F(1)\n\t[!(1) @R(1, 0, 0) F(1) Tip(1)] Tip(0)"));
 }
 
 TEST_CASE("MTG: entities without coordinates lie between their neighbours, and bear what stands on them", "[mtg]") {
     const std::string text =
         plant("/P1/A1/U1\t\t0\t0\t0\t1\n^<U2\n^<U3\n\t+U7\t3\t0\t2\t1\n^<U4\t\t0\t0\t3\t1\n^<U5\n\t+U8\t0\t9\t3\n");
     CHECK_THAT(axiom_of(text),
-               Catch::Contains("[ !(1) @R(0, 1, 0) F(1) !(1) @R(0, 1, 0) F(1)\n\t[ !(1) @R(1, 0, 0) F(3) Tip(1)]"
-                               " !(1) @R(0, 1, 0) F(1)\n\t[ !(1) @R(0, 0, -1) F(9) Tip(1)] Tip(0)]"));
+               Catch::Contains("!(1) @R(0, 1, 0) F(1) !(1) @R(0, 1, 0) F(1)\n\t[!(1) @R(1, 0, 0) F(3) Tip(1)]"
+                               " !(1) @R(0, 1, 0) F(1)\n\t[!(1) @R(0, 0, -1) F(9) Tip(1)] Tip(0)"));
 }
 
 TEST_CASE("MTG: lines say the unit and what points upwards, a length where a trunk begins", "[mtg]") {
     CHECK_THAT(axiom_of("# unit: cm\n# up: y\n" + plant("/P1/A1/U1\t\t0\t50\t0\t2\t20\n^<U2\t\t0\t100\t0\t2\t50\n",
                                                         "XX\tYY\tZZ\tTopDia\tlength")),
-               Catch::Contains("@R(0, 1, 0) f(0.3)  !(0.02) @R(0, 1, 0) F(0.2) !(0.02) @R(0, 1, 0) F(0.5)"));
+               Catch::Contains("@R(0, 1, 0) f(0.3) !(0.02) @R(0, 1, 0) F(0.2) !(0.02) @R(0, 1, 0) F(0.5)"));
 }
 
 TEST_CASE("MTG: entities with a birth appear on their day", "[mtg]") {
@@ -92,5 +92,5 @@ TEST_CASE("MTG: mistakes are named with their line and column", "[mtg]") {
     CHECK_THAT(mistake("# unit: miles\n" + plant("/P1/A1/U1\t\t0\t0\t1\n")), Catch::Contains("the unit 'miles'"));
     std::string deep = "/P1/A1/U1\t\t0\t0\t1\n";
     for (int i = 2; i < 80; ++i) deep += "^+U" + std::to_string(i) + "\t\t0\t0\t" + std::to_string(i) + "\n";
-    CHECK_THAT(mistake(plant(deep)), Catch::Contains("axes branch more often than 60 times"));
+    CHECK(mistake(plant(deep)).empty());
 }

@@ -44,7 +44,7 @@ TEST_CASE("RSML: roots of CPlantBox, in cm and with z upwards, hang down in metr
 
 TEST_CASE("RSML: a lateral stands on the node that the file names, or on the nearest", "[rsml]") {
     const std::string lateral = "<point x=\"0\" y=\"0\" z=\"-2\"/><point x=\"1\" y=\"0\" z=\"-2\"/>";
-    const std::string expected = "F(0.02)\n\t[ !(0.0005) @R(1, 0, 0) F(0.01) Tip(1)] !(0.0005)";
+    const std::string expected = "F(0.02)\n\t[!(0.0005) @R(1, 0, 0) F(0.01) Tip(1)] !(0.0005)";
     CHECK_THAT(model_of_rsml(file("", root(straight, root(lateral)))), Catch::Contains(expected));
     CHECK_THAT(
         model_of_rsml(file("", root(straight, root(lateral, "<properties><parent-node value=\"1\"/></properties>")))),

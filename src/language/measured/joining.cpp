@@ -1,0 +1,142 @@
+#include "language/measured/joining.h"
+
+#include "language/measured/nearest_point.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace espalier::language::measured {
+namespace {
+
+/// Where an axis stands on its bearer.
+struct Stand {
+    std::size_t axis, segment;
+    double share;
+};
+
+class Joiner {
+public:
+    explicit Joiner(std::vector<LooseAxis> axes) : axes_(std::move(axes)), borne_(axes_.size()) {
+        pass_over_empty();
+        tolerance_ = 1e-6 * extent();
+    }
+
+    std::vector<MeasuredAxis> joined() {
+        for (std::size_t i = 0; i < axes_.size(); ++i) {
+            if (!axes_[i].nodes.empty() && axes_[i].bearer) borne_[*axes_[i].bearer].push_back(i);
+        }
+        on_node_.resize(axes_.size(), 0);
+        for (std::size_t i = 0; i < axes_.size(); ++i) place_borne(i);
+        return sorted();
+    }
+
+private:
+    /// What an axis without nodes bears is borne by its bearer.
+    void pass_over_empty() {
+        for (LooseAxis& axis : axes_) {
+            while (axis.bearer && axes_[*axis.bearer].nodes.empty()) {
+                axis.bearer = axes_[*axis.bearer].bearer;
+                axis.on_node.reset();
+            }
+        }
+    }
+
+    double extent() const {
+        glm::dvec3 lower(INFINITY), upper(-INFINITY);
+        for (const LooseAxis& axis : axes_) {
+            for (const MeasuredNode& node : axis.nodes) {
+                lower = glm::min(lower, node.at);
+                upper = glm::max(upper, node.at);
+            }
+        }
+        return lower.x <= upper.x ? glm::length(upper - lower) : 0;
+    }
+
+    void place_borne(std::size_t bearer) {
+        if (borne_[bearer].empty()) return;
+        const std::vector<MeasuredNode>& line = axes_[bearer].nodes;
+        const NearestPoint nearest(line);
+        std::vector<Stand> stands;
+        for (const std::size_t axis : borne_[bearer]) stands.push_back(stand_of(axis, line, nearest));
+        std::stable_sort(stands.begin(), stands.end(), [](const Stand& a, const Stand& b) {
+            return a.segment != b.segment ? a.segment < b.segment : a.share < b.share;
+        });
+        divide(bearer, stands);
+    }
+
+    Stand stand_of(std::size_t axis, const std::vector<MeasuredNode>& line, const NearestPoint& nearest) const {
+        const glm::dvec3& base = axes_[axis].nodes[0].at;
+        const std::optional<std::size_t> node = axes_[axis].on_node;
+        const bool says_node = node && *node < line.size();
+        if (says_node && glm::distance(base, line[*node].at) <= tolerance_) return {axis, *node, 0};
+        const NearestPoint::Spot spot = nearest.to(base);
+        if (says_node && spot.square > tolerance_ * tolerance_) return {axis, *node, 0};
+        const double length =
+            spot.segment + 1 < line.size() ? glm::distance(line[spot.segment].at, line[spot.segment + 1].at) : 0;
+        if (spot.share * length <= tolerance_) return {axis, spot.segment, 0};
+        if ((1 - spot.share) * length <= tolerance_) return {axis, spot.segment + 1, 0};
+        return {axis, spot.segment, spot.share};
+    }
+
+    /// A node for each place, in their order, where there is none yet.
+    void divide(std::size_t bearer, const std::vector<Stand>& stands) {
+        const std::vector<MeasuredNode>& line = axes_[bearer].nodes;
+        std::vector<MeasuredNode> nodes;
+        auto stand = stands.begin();
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            nodes.push_back(line[i]);
+            double last = 0;
+            for (; stand != stands.end() && stand->segment == i; ++stand) {
+                if (stand->share > last) nodes.push_back(between(line[i], line[i + 1], last = stand->share));
+                on_node_[stand->axis] = nodes.size() - 1;
+            }
+        }
+        axes_[bearer].nodes = std::move(nodes);
+    }
+
+    static MeasuredNode between(const MeasuredNode& a, const MeasuredNode& b, double share) {
+        const auto mixed = [share](const auto& from, const auto& to) { return from + share * (to - from); };
+        return {mixed(a.at, b.at), mixed(a.diameter, b.diameter), mixed(a.day, b.day), b.linked};
+    }
+
+    std::vector<MeasuredAxis> sorted() {
+        std::vector<std::size_t> order;
+        for (std::size_t i = 0; i < axes_.size(); ++i) {
+            if (!axes_[i].nodes.empty()) order.push_back(i);
+        }
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::size_t a, std::size_t b) { return axes_[a].plant < axes_[b].plant; });
+        std::vector<std::size_t> place(axes_.size());
+        std::vector<MeasuredAxis> sorted;
+        for (const std::size_t i : order) {
+            place[i] = sorted.size();
+            LooseAxis& axis = axes_[i];
+            MeasuredAxis& out = sorted.emplace_back();
+            out.label = std::move(axis.label);
+            out.plant = axis.plant;
+            if (axis.bearer) out.bearer = place[*axis.bearer];
+            out.on_node = on_node_[i];
+            out.order = out.bearer ? sorted[*out.bearer].order + 1 : 0;
+            out.nodes = std::move(axis.nodes);
+            out.place = std::move(axis.place);
+        }
+        return sorted;
+    }
+
+    std::vector<LooseAxis> axes_;
+    std::vector<std::vector<std::size_t>> borne_;
+    std::vector<std::size_t> on_node_;
+    double tolerance_ = 0;
+};
+
+}  // namespace
+
+std::vector<MeasuredAxis> joined(std::vector<LooseAxis> axes) {
+    return Joiner(std::move(axes)).joined();
+}
+
+}  // namespace espalier::language::measured

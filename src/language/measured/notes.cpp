@@ -1,0 +1,37 @@
+#include "language/measured/notes.h"
+
+#include <fmt/format.h>
+
+namespace espalier::language::measured {
+
+void Notes::unused(const std::string& what, const Place& place) {
+    note(what, place, true);
+}
+
+void Notes::warn(const std::string& sentence, const Place& place) {
+    note(sentence, place, false);
+}
+
+void Notes::note(const std::string& text, const Place& place, bool is_unused) {
+    const auto [found, is_new] = number_of_.try_emplace(text, kinds_.size());
+    if (is_new) kinds_.push_back({text, place.known() ? place : Place{file_, 0, 0}, 0, is_unused});
+    ++kinds_[found->second].places;
+}
+
+std::vector<Diagnostic> Notes::warnings() const {
+    std::vector<Diagnostic> warnings;
+    for (const Kind& kind : kinds_) {
+        Diagnostic& warning = warnings.emplace_back();
+        warning.severity = Diagnostic::Severity::warning;
+        warning.place = kind.first;
+        warning.message = kind.text;
+        if (kind.is_unused) {
+            warning.message += kind.places == 1 ? " is not used" : fmt::format(" is not used ({} places)", kind.places);
+        } else if (kind.places > 1) {
+            warning.message += fmt::format(" ({} places)", kind.places);
+        }
+    }
+    return warnings;
+}
+
+}  // namespace espalier::language::measured

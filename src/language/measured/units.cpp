@@ -1,0 +1,61 @@
+#include "language/measured/units.h"
+
+#include "espalier/base/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace espalier::language::measured {
+
+std::optional<double> metres_of(std::string_view unit) {
+    struct Spelling {
+        std::string_view word;
+        double metres;
+    };
+    static constexpr std::array<Spelling, 20> spellings{{{"m", 1},
+                                                         {"meter", 1},
+                                                         {"metre", 1},
+                                                         {"meters", 1},
+                                                         {"metres", 1},
+                                                         {"dm", 0.1},
+                                                         {"cm", 0.01},
+                                                         {"centimeter", 0.01},
+                                                         {"centimetre", 0.01},
+                                                         {"centimeters", 0.01},
+                                                         {"mm", 0.001},
+                                                         {"millimeter", 0.001},
+                                                         {"millimetre", 0.001},
+                                                         {"millimeters", 0.001},
+                                                         {"um", 1e-6},
+                                                         {"micrometer", 1e-6},
+                                                         {"\xC2\xB5m", 1e-6},
+                                                         {"inch", 0.0254},
+                                                         {"inches", 0.0254},
+                                                         {"in", 0.0254}}};
+    std::string small(unit);
+    for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const auto* const found =
+        std::find_if(spellings.begin(), spellings.end(), [&](const Spelling& each) { return each.word == small; });
+    return found == spellings.end() ? std::nullopt : std::optional(found->metres);
+}
+
+double metres_of_unit(const std::string& unit) {
+    if (const std::optional<double> metres = metres_of(unit)) return *metres;
+    throw UserError(fmt::format("the unit '{}' is no length: write m, dm, cm, mm, um or inch", unit));
+}
+
+glm::dmat3 upright(const std::string& up) {
+    // Columns: where the file's x, y and z go.
+    if (up == "y") return glm::dmat3(1);
+    if (up == "-y") return {{1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
+    if (up == "z") return {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
+    if (up == "-z") return {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
+    if (up == "x") return {{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}};
+    if (up == "-x") return {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
+    throw UserError(fmt::format("what points upwards is x, y, z, -x, -y or -z, not '{}'", up));
+}
+
+}  // namespace espalier::language::measured
