@@ -151,8 +151,8 @@ std::vector<NamedProgram> programs_of(RunArguments arguments) {
 
 // To make a folder is the only way to know that no other run has it.
 DefaultOutput::DefaultOutput(const std::string& scene) {
-    const fs::path base =
-        fs::path("output") / fmt::format("{}-{:%Y%m%d-%H%M%S}", scene, fmt::localtime(std::time(nullptr)));
+    const std::time_t now = std::time(nullptr);
+    const fs::path base = fs::path("output") / fmt::format("{}-{:%Y%m%d-%H%M%S}", scene, *std::localtime(&now));
     std::error_code error;
     fs::create_directories(base.parent_path(), error);
     path_ = base;

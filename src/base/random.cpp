@@ -4,8 +4,7 @@
 #include "espalier/base/stop.h"
 
 #include "base/math_columns.h"
-
-#include <Random123/philox.h>
+#include "base/philox.h"
 
 #include <algorithm>
 #include <array>
@@ -23,22 +22,21 @@ namespace {
 constexpr int resolution = 53;  // bits of a sample, as many as a double holds
 
 std::uint64_t sample_bits(std::uint64_t key, std::uint64_t owner, std::uint32_t step, std::uint32_t sample) {
-    const r123::Philox4x32::ctr_type counter = {
-        {static_cast<std::uint32_t>(owner), static_cast<std::uint32_t>(owner >> 32), step, sample}};
-    const r123::Philox4x32::key_type words = {{static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)}};
-    const auto bits = r123::Philox4x32()(counter, words);
+    const philox::Counter bits =
+        philox::bits({static_cast<std::uint32_t>(owner), static_cast<std::uint32_t>(owner >> 32), step, sample},
+                     {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)});
     return ((static_cast<std::uint64_t>(bits[1]) << 32) | bits[0]) >> (64 - resolution);
 }
 
 #ifdef ESPALIER_WIDE_SAMPLES
 constexpr std::size_t samples_at_once = 8;
 
-/// Philox 4x32-10 (Salmon et al. 2011, section 3.3) of eight owners: counter words in the lower halves of 64-bit
+/// The same of eight owners: counter words in the lower halves of 64-bit
 /// lanes, whose upper halves the multiplication does not see.
 __attribute__((target("avx2"))) void sample_eight(std::uint64_t key, std::uint32_t step, const std::uint64_t* owners,
                                                   const std::uint32_t* numbers, std::uint64_t* samples) {
-    constexpr int vectors = 2, lanes = 4, rounds = 10;
-    const __m256i multiplier0 = _mm256_set1_epi64x(PHILOX_M4x32_0), multiplier1 = _mm256_set1_epi64x(PHILOX_M4x32_1);
+    constexpr int vectors = 2, lanes = 4;
+    const __m256i multiplier0 = _mm256_set1_epi64x(philox::multiplier0), multiplier1 = _mm256_set1_epi64x(philox::multiplier1);
     __m256i counter[4][vectors];
     for (int v = 0; v < vectors; ++v) {
         counter[0][v] = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(owners + lanes * v));
@@ -48,7 +46,7 @@ __attribute__((target("avx2"))) void sample_eight(std::uint64_t key, std::uint32
         counter[3][v] = _mm256_cvtepu32_epi64(_mm_loadu_si128(number));
     }
     auto key0 = static_cast<std::uint32_t>(key), key1 = static_cast<std::uint32_t>(key >> 32);
-    for (int round = 0; round < rounds; ++round, key0 += PHILOX_W32_0, key1 += PHILOX_W32_1) {
+    for (int round = 0; round < philox::rounds; ++round, key0 += philox::step0, key1 += philox::step1) {
         const __m256i round_key0 = _mm256_set1_epi64x(key0), round_key1 = _mm256_set1_epi64x(key1);
         for (int v = 0; v < vectors; ++v) {
             const __m256i product0 = _mm256_mul_epu32(counter[0][v], multiplier0);

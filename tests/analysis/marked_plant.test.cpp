@@ -12,7 +12,7 @@
 
 using namespace espalier;
 using namespace espalier::analysis;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

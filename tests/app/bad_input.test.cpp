@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 using nlohmann::json;
 
 namespace {
@@ -225,7 +225,7 @@ TEST_CASE_METHOD(BadInput, "the file system's complaints are told in words", "[a
         CHECK((outcome.code == 0) == outcome.err.empty());
         CHECK_THAT(outcome.err, !Contains("filesystem error") && !Contains("[]") && !Contains("std::") &&
                                     !Contains("basic_") && !Contains("what()"));
-        CHECK_THAT(outcome.err, !Catch::Matchers::StartsWith(":"));
+        CHECK_THAT(outcome.err, !Catch::StartsWith(":"));
     }
 }
 

@@ -3,7 +3,7 @@
 #include "program.h"
 #include "recorded_files.h"
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

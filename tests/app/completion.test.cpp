@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 using nlohmann::json;
 
 namespace {

@@ -10,7 +10,7 @@
 
 namespace {
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 /// Plants of two species in a row, and a plant to stand for them.
 struct LandscapePlace : Workplace {

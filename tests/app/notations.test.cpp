@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include <set>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 using nlohmann::json;
 
 namespace {
@@ -85,7 +85,7 @@ TEST_CASE_METHOD(Objects, "running a folder records the frames its author chose"
     CHECK(json::parse(text_of(path() / "out/run.json"))["scene"]["name"] == "shoot");
     CHECK(run("info out").code == 0);
     const json unnamed = json::parse(run("run shoot --json --quiet").out);
-    CHECK_THAT(unnamed["output"].get<std::string>(), Catch::Matchers::StartsWith("output/shoot-20"));
+    CHECK_THAT(unnamed["output"].get<std::string>(), Catch::StartsWith("output/shoot-20"));
 }
 
 TEST_CASE_METHOD(Objects, "what a run of an object wrote down can be run again", "[app]") {

@@ -6,7 +6,7 @@
 
 #include <pty.h>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 using nlohmann::json;
 namespace fs = std::filesystem;
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <map>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 namespace fs = std::filesystem;
 
 namespace {

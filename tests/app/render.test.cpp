@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

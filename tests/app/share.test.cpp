@@ -6,7 +6,7 @@
 
 #include <regex>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 using Json = nlohmann::json;
 
 namespace {

@@ -7,7 +7,7 @@
 
 #include <cstring>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <set>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 namespace fs = std::filesystem;
 
 TEST_CASE("studio prints an address with a token, and ends when it is asked to", "[app]") {

@@ -15,7 +15,7 @@
 #include <set>
 #include <sstream>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 using nlohmann::json;
 namespace fs = std::filesystem;
 

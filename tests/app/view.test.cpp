@@ -10,7 +10,7 @@
 #include <array>
 #include <functional>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 using nlohmann::json;
 namespace fs = std::filesystem;
 

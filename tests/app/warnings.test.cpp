@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

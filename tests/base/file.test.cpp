@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 
 using namespace espalier;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 namespace fs = std::filesystem;
 
 namespace {

@@ -4,7 +4,7 @@
 #include "temporary_folder.h"
 
 using namespace espalier;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 namespace fs = std::filesystem;
 
 TEST_CASE("what lies below a folder is told whatever links lead there or out", "[base]") {

@@ -9,7 +9,7 @@
 #include "temporary_folder.h"
 
 using namespace espalier;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

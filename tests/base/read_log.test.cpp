@@ -7,7 +7,7 @@
 
 #include <thread>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 using espalier::ReadLog;
 namespace fs = std::filesystem;
 

@@ -6,7 +6,7 @@
 #include <map>
 
 using namespace espalier;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <thread>
 
 using namespace espalier;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 TEST_CASE("a program makes tables of everything that TOML has", "[base]") {
     const Settings table{{"voxel", 0.25},

@@ -5,7 +5,7 @@
 #include "catch.h"
 
 using namespace espalier;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "catch.h"
 
 using namespace espalier;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 TEST_CASE("a number with its unit is told what to write", "[base]") {
     for (const std::string value : {"0.1 m", "0.1m", "0.1 %", "0.1\tcm/h", "0.1 \u00b5m", "0.1 m "}) {

@@ -2,7 +2,7 @@
 #include "app/program.h"
 #include "catch.h"
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include "page.h"
 #include "temporary_folder.h"
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

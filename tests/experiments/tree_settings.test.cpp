@@ -16,7 +16,7 @@
 #include <set>
 
 using namespace espalier;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -19,7 +19,7 @@
 
 using namespace espalier;
 using namespace espalier::formats;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -14,7 +14,7 @@
 
 using namespace espalier;
 using namespace espalier::geometry;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -123,7 +123,7 @@ TEST_CASE("7 printf, stop, the derivation length", "[conformance]") {
           "A(3)");
     quote("ends the run at once with this message and the model's line, with exit code 2");
     CHECK_THROWS_WITH(step("A(2)", "A(x) : {error(\"%g is too much for %s\", x, \"A\");} --> A(x)\n"),
-                      Catch::Matchers::Contains("2 is too much for A") && Catch::Matchers::Contains("model.l:"));
+                      Catch::Contains("2 is too much for A") && Catch::Contains("model.l:"));
     quote("| `Display(x)`, `play(\"file\")` | no effect |");
     CHECK(step("A(0)", "A(x) : {Display(x); play(\"leaf.wav\");} --> A(x + 1)\n") == "A(1)");
     quote("the derivation length");

@@ -11,7 +11,7 @@
 using namespace espalier;
 using namespace espalier::language;
 using namespace espalier::test;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 namespace fs = std::filesystem;
 
 namespace {

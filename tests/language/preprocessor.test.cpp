@@ -10,7 +10,7 @@
 using namespace espalier;
 using namespace espalier::language;
 using namespace espalier::test;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include <map>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 using namespace espalier;
 
 namespace {

@@ -11,7 +11,7 @@
 
 using namespace espalier;
 using namespace espalier::picture;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -17,7 +17,7 @@
 
 using namespace espalier;
 using namespace espalier::picture;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 
@@ -230,7 +230,7 @@ TEST_CASE("pictures: an SVG is one, and the same page gives the same bytes", "[p
         CHECK((text_of(first) == text_of(second)));
         CHECK(text_of(first).size() > 2000);
     }
-    CHECK_THAT(text_of(folder.path() / "first.svg"), Catch::Matchers::StartsWith("<svg") && Contains("</svg>"));
+    CHECK_THAT(text_of(folder.path() / "first.svg"), Catch::StartsWith("<svg") && Contains("</svg>"));
 }
 
 TEST_CASE("pictures: in an SVG a line lies where its numbers are, in the picture's own pixels", "[pictures]") {

@@ -4,7 +4,7 @@
 
 using namespace espalier;
 using namespace espalier::simulation;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 using Frames = std::vector<int>;
 
 namespace {

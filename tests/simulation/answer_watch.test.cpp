@@ -9,7 +9,7 @@
 #include <thread>
 
 using namespace espalier;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

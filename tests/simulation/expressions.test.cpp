@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 using namespace espalier;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

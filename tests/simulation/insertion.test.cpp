@@ -11,7 +11,7 @@
 #include <sstream>
 
 using namespace espalier;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 using espalier::simulation::read_insertion;
 
 namespace {

@@ -13,7 +13,7 @@
 
 using namespace espalier;
 using namespace espalier::simulation;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <openvdb/io/File.h>
 
 using namespace espalier;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

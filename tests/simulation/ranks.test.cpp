@@ -16,7 +16,7 @@
 
 using namespace espalier;
 using namespace espalier::simulation;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 namespace fs = std::filesystem;
 
 namespace {

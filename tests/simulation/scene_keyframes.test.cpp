@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 
 using namespace espalier;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

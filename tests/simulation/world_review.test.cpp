@@ -14,7 +14,7 @@
 #include <vector>
 
 using namespace espalier;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 
 using namespace studio_test;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

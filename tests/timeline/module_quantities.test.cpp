@@ -5,7 +5,7 @@
 #include "timeline/frames.h"
 
 using namespace espalier;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 
@@ -40,7 +40,7 @@ TEST_CASE("quantities of a model's modules are columns behind all others", "[tim
         "high = \"max(F.1)\", number = \"count(F.2)\", light = \"sum(?E.1)\" }\n");
     CHECK_THAT(csv, Contains(",born,died,mass,vigour,low,high,number,light\n"));
     CHECK_THAT(csv, Contains(",5,0.375,2,3,2,7\n"));
-    CHECK_THAT(csv, Catch::Matchers::EndsWith(",0,,,,0,0\n"));
+    CHECK_THAT(csv, Catch::EndsWith(",0,,,,0,0\n"));
 }
 
 TEST_CASE("a quantity that no model has is an error at its place", "[timeline]") {

@@ -10,7 +10,6 @@ class Espalier < Formula
   depends_on "glm" => [:build, :test]
   depends_on "ninja" => :build
   depends_on "nlohmann-json" => :build
-  depends_on "random123" => :build
   depends_on "boost"
   depends_on "eigen"
   depends_on "embree"

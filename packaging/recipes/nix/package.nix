@@ -16,7 +16,6 @@
   nlohmann_json,
   openvdb,
   qhull,
-  random123,
   sleef,
   tbb,
   tomlplusplus,
@@ -50,7 +49,6 @@ stdenv.mkDerivation (finalAttrs: {
     nlohmann_json
     openvdb
     qhull
-    random123
     sleef
     tbb
     tomlplusplus

@@ -24,7 +24,6 @@ class Espalier(CMakePackage):
     depends_on("ninja", type="build")
     depends_on("cli11", type="build")
     depends_on("nlohmann-json", type="build")
-    depends_on("random123", type="build")
     depends_on("eigen")
     depends_on("embree@3:")
     depends_on("expat")

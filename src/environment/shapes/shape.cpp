@@ -4,6 +4,7 @@
 #include "environment/shapes/kinds.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>

@@ -13,6 +13,7 @@
 #include "timeline/files/vti_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 

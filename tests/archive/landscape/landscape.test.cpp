@@ -9,7 +9,7 @@
 #include <numbers>
 
 using namespace espalier;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 TEST_CASE("a card has two triangles and faces the eye from 100 angles", "[landscape]") {
     const FrameMesh mesh = card_mesh({{0, 1, 0}, {-1, -1}, {1, 1}}, "tree");

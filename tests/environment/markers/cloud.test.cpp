@@ -14,7 +14,7 @@
 
 using namespace espalier;
 using namespace espalier::environment;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -13,7 +13,7 @@
 
 using namespace espalier;
 using namespace espalier::environment;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 using Clock = std::chrono::steady_clock;
 
 namespace {

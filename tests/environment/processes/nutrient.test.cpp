@@ -391,7 +391,7 @@ TEST_CASE("a solute works beside a linear soil", "[environment][nutrient]") {
 
 TEST_CASE("what cannot be is refused with its place", "[environment][nutrient]") {
     const auto error = [](const std::string& text) { return user_error([&] { Solute solute(text); }); };
-    using Catch::Matchers::Contains;
+    using Catch::Contains;
     CHECK_THAT(error(column(4, 1, "uptake = { vmax = 1 }\n")), Contains("km"));
     CHECK_THAT(error(column(4, 1, "initial = -1\n")), Contains("solute.toml:3"));
     CHECK_THAT(error(column(4, 1, "soil = \"clay\"\n")), Contains("clay"));

@@ -312,7 +312,7 @@ TEST_CASE("a model says the conductances of its roots", "[environment][roots]") 
     // The uptake at a depth z is proportional to cosh((20 - z) tau).
     CHECK(pair.quantity("suf_depth") == Approx(std::tanh(10 * tau) / tau).epsilon(2e-3));
     parameters[2][5] = 0;
-    CHECK_THROWS_WITH(pair.step(0.01), Catch::Matchers::Contains("axial conductance 0 cm3/d"));
+    CHECK_THROWS_WITH(pair.step(0.01), Catch::Contains("axial conductance 0 cm3/d"));
 }
 
 TEST_CASE("mistakes of roots are clear lines", "[environment][roots]") {
@@ -392,7 +392,7 @@ TEST_CASE("a root that leaves the soil ends there, goes on, or ends the run", "[
     CHECK(std::isnan(ends.process->organ_values("head", 0)->back()));
     CHECK(ignored.process->organ_values("uptake", 0)->back() == 0);
     CHECK_THROWS_WITH(TooLong("outside = \"error\"\n"),
-                      Catch::Matchers::Contains("a root of plant 0 leaves the soil at (0.01, -0.25"));
+                      Catch::Contains("a root of plant 0 leaves the soil at (0.01, -0.25"));
 }
 
 TEST_CASE("a root that leaves the soil and comes back takes part again only where it is ignored outside",
@@ -467,7 +467,7 @@ TEST_CASE("a model says the ages of its roots within a step", "[environment][roo
     CHECK(conductance_with_ages({}) == Approx(4 * young).epsilon(1e-4));
     CHECK(conductance_with_ages({9, 6.5, 2.25, 0}) == Approx((0.1 + 0.35 + 0.775 + 1) * young).epsilon(1e-4));
     CHECK(conductance_with_ages({40, 40, 40, 5}) == Approx(0.5 * young).epsilon(1e-4));
-    CHECK_THROWS_WITH(conductance_with_ages({1, 1, 1, -0.5}), Catch::Matchers::Contains("a root -0.5 days old"));
+    CHECK_THROWS_WITH(conductance_with_ages({1, 1, 1, -0.5}), Catch::Contains("a root -0.5 days old"));
     CHECK(conductance_with_ages({1, 1, 1, 1}, "along = \"distance from tip\"\n") > 0);
 }
 

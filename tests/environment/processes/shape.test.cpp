@@ -155,7 +155,7 @@ TEST_CASE("a field that would not fit is refused before it is made", "[shape]") 
 }
 
 TEST_CASE("mistakes in motion are told with their place", "[shape]") {
-    using Catch::Matchers::Contains;
+    using Catch::Contains;
     const auto message = [](const char* motion) -> std::string {
         try {
             AskedShape(std::string(unit_sphere) + "motion = " + motion);

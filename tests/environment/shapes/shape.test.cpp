@@ -308,7 +308,7 @@ TEST_CASE("mistakes in shapes are told with their place", "[shape]") {
         }
         return "accepted";
     };
-    using Catch::Matchers::Contains;
+    using Catch::Contains;
     CHECK_THAT(message("shape = 'spere'\nradius = 1"), Contains("test.toml:1") && Contains("did you mean 'sphere'"));
     CHECK_THAT(message("shape = 'sphere'\ncenter = [0, 0, 0]\nradius = -1"), Contains("test.toml:3"));
     CHECK_THAT(message("shape = 'sphere'\ncenter = [0, 0, 0]\nradius = 1\nradios = 2"), Contains("radios"));

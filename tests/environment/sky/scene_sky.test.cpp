@@ -12,7 +12,7 @@
 using namespace espalier;
 using namespace espalier::environment;
 using Json = nlohmann::ordered_json;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

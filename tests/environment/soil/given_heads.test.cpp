@@ -7,7 +7,7 @@
 #include <cmath>
 #include <fstream>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace espalier::test {
 namespace {

@@ -13,7 +13,7 @@
 #include <map>
 #include <set>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace espalier::test {
 namespace {

@@ -95,7 +95,7 @@ TEST_CASE("components of one letter may follow each other without blanks, as the
     CHECK(grown("SABCDE", "S -> (A B(CD)E);") == "A < S; B < S; C < B; D < B; E < S; ");
     CHECK(grown("SAB", "S -> (AB(AB));") == "A < S; B < S; A < B; B < B; ");
     CHECK(grown("SAB", "S -> (AB*2);") == "A < S; B < S; B < S; ");
-    CHECK_THROWS_WITH(grown("SA", "S -> (AX);"), Catch::Matchers::Contains("'AX' is not defined"));
+    CHECK_THROWS_WITH(grown("SA", "S -> (AX);"), Catch::Contains("'AX' is not defined"));
 }
 
 TEST_CASE("a component that has slaves on a right side still has those of its rule, a step later", "[sdl]") {

@@ -6,7 +6,7 @@ using namespace espalier;
 using namespace espalier::geometry;
 using namespace espalier::turtle;
 using namespace espalier::test;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 TEST_CASE("an internode stands on the last one before it on its branch", "[turtle][stages]") {
     Tree tree;

@@ -5,7 +5,7 @@
 
 using namespace espalier;
 using namespace espalier::test;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 TEST_CASE("a branch at theta from down turns by lambda (1 - theta/180) theta", "[turtle][stages]") {
     const auto [theta, psi] =

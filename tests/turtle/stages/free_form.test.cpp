@@ -5,7 +5,7 @@
 
 using namespace espalier;
 using namespace espalier::test;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -15,7 +15,7 @@ using namespace espalier;
 using namespace espalier::geometry;
 using namespace espalier::turtle;
 using namespace espalier::test;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

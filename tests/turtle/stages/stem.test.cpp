@@ -8,7 +8,7 @@ using namespace espalier;
 using namespace espalier::geometry;
 using namespace espalier::turtle;
 using namespace espalier::test;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 TEST_CASE("a stem lifts everything by one vector, exactly", "[turtle][stages]") {
     const Tree before = small_tree();

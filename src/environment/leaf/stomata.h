@@ -1,0 +1,46 @@
+// How far stomata open. Conductances to water vapour in mol m-2 s-1 of one-sided leaf area.
+#pragma once
+
+#include <string>
+
+namespace espalier::environment::leaf {
+
+/// What stomata answer to, at the surface of the leaf.
+struct AtSurface {
+    double assimilation = 0;    ///< A, umol m-2 s-1
+    double carbon_dioxide = 0;  ///< Cs, umol mol-1
+    double deficit = 1;         ///< D, kPa
+    double saturation = 1;      ///< pressure of saturated vapour at the leaf's temperature, kPa
+    double compensation = 0;    ///< Gamma*, umol mol-1
+};
+
+/// A conductance and its derivatives by A, Cs and D.
+struct Opening {
+    double conductance = 0, by_assimilation = 0, by_carbon_dioxide = 0, by_deficit = 0;
+};
+
+/// Medlyn et al. (2011): g0 + 1.6 (1 + f g1 / sqrt(D)) A / Cs. Leuning (1995): g0 + f a1 A / ((Cs - Gamma*) (1 + D /
+/// D0)). Ball, Woodrow & Berry (1987): g0 + f g1 A h / Cs, h the relative humidity. Where A is not above 0: g0.
+struct Stomata {
+    enum class Form { medlyn, leuning, ball_berry };
+
+    Form form = Form::medlyn;
+    double least = 0;        ///< g0
+    double slope = 4;        ///< g1, of Medlyn's form in kPa^0.5; a1 of Leuning's
+    double deficit_0 = 1.5;  ///< D0 of Leuning's, kPa
+    // By the water potential of the leaf (Tuzet, Perrier & Leuning 2003).
+    double sensitivity = 0;  ///< sf, MPa-1; 0: stomata do not know it
+    double reference = -2;   ///< psi_f, MPa
+
+    /// f, from 1 of a wet leaf to 0: (1 + exp(sf psi_f)) / (1 + exp(sf (psi_f - psi))), psi in MPa.
+    double by_potential(double potential) const;
+    Opening opening(const AtSurface& surface, double factor) const;
+    /// Not below the conductance at any surface of this leaf, whose A is at most this: where a search begins. `vapour`
+    /// is the conductance of the boundary layer, `excess` the vapour pressure in the leaf above that of the air.
+    double upper_bound(const AtSurface& surface, double factor, double vapour, double excess) const;
+};
+
+/// Deficits below this count as this, kPa: the forms know no saturated air.
+inline constexpr double least_deficit = 0.01;
+
+}  // namespace espalier::environment::leaf
