@@ -220,6 +220,16 @@ std::vector<Quantity> Environment::statistics(std::uint32_t plant) const {
     return all;
 }
 
+double Environment::statistic(const std::string& name, std::uint32_t plant) const {
+    const std::size_t dot = name.find('.');
+    const auto process = find(name.substr(0, dot));
+    if (!process || dot == std::string::npos) return std::nan("");
+    for (const Quantity& quantity : processes_[*process]->statistics(plant)) {
+        if (quantity.name == name.substr(dot + 1)) return quantity.value;
+    }
+    return std::nan("");
+}
+
 std::vector<OrganQuantity> Environment::organ_quantities() const {
     std::vector<OrganQuantity> all;
     for (std::size_t process = 0; process < processes_.size(); ++process) {

@@ -73,6 +73,9 @@ public:
     /// Quantities of all processes for one plant, named "process.quantity", in scene order.
     std::vector<Quantity> statistics(std::uint32_t plant) const;
 
+    /// One of them; NaN for an unknown name.
+    double statistic(const std::string& name, std::uint32_t plant) const;
+
     /// What processes know of each organ, named "process.quantity", in scene order.
     std::vector<OrganQuantity> organ_quantities() const;
     /// Values of one of them for a plant's modules, see EnvironmentProcess; null for an unknown name or plant.

@@ -39,6 +39,8 @@ struct WaitingQueries {
     std::function<std::span<const Query>(std::uint32_t plant)> of;
 };
 
+class Environment;
+
 /// The world at one step. `dt` is the time a derivation step stands for, in the scene's unit.
 struct WorldView {
     int step = 0;
@@ -46,6 +48,8 @@ struct WorldView {
     double dt = 1;
     std::span<const PlantView> plants;
     const WaitingQueries* waiting = nullptr;  ///< null: all plants are in memory
+    /// Whose processes before this one in the scene have advanced and answered; null outside an exchange.
+    const Environment* environment = nullptr;
 };
 
 /// What a process knows when the world is made.

@@ -285,9 +285,11 @@ void Environment::throw_unsound(const Query& query, std::size_t process, const P
 void Environment::consult(std::size_t process, const WorldView& world) {
     Batch& batch = batches_[process];
     const Answering::Turn turn(*answering_, names_[process]);
+    WorldView seen = world;
+    seen.environment = this;
     try {
-        processes_[process]->advance(world, batch.queries, fields_);
-        processes_[process]->answer(world, batch.queries, batch.answers, fields_);
+        processes_[process]->advance(seen, batch.queries, fields_);
+        processes_[process]->answer(seen, batch.queries, batch.answers, fields_);
     } catch (const UserError&) {
         throw;
     } catch (const std::exception& error) {

@@ -10,6 +10,7 @@ inline constexpr double kelvin = 273.15;
 inline constexpr double molar_heat = 29.3;            ///< of air, J mol-1 K-1 (Campbell & Norman 1998)
 inline constexpr double water_molar_mass = 0.018015;  ///< kg mol-1
 inline constexpr double sea_level = 101.325;          ///< kPa
+inline constexpr double vapour_to_carbon = 1.6;       ///< ratio of diffusivities of water vapour and CO2 in still air
 
 struct Air {
     double temperature = 25;

@@ -13,7 +13,6 @@ namespace {
 constexpr int most_steps = 100;
 constexpr double closed = 1e-9;  ///< mol m-2 s-1: less than any leaf lets through is nothing
 constexpr double reach = 60;     ///< K, of the leaf's temperature from the air's
-constexpr double vapour_to_carbon = 1.6;
 
 /// A leaf whose stomata are sought: for each conductance there is one temperature, and one rate of assimilation.
 class SoughtLeaf {
@@ -204,7 +203,7 @@ Residuals residuals_of(const GasExchange& found, const LeafKind& leaf, const Lea
     Residuals residuals;
     residuals.carbon = std::max(
         relative(used - found.assimilation, {used, found.assimilation, respired}),
-        found.conductance > 0 ? relative(supplied - found.assimilation, {found.conductance * found.at_surface / 1.6})
+        found.conductance > 0 ? relative(supplied - found.assimilation, {found.conductance * found.at_surface / vapour_to_carbon})
                               : 0);
     residuals.stomata = relative(opening - found.conductance, {opening, found.conductance});
     residuals.vapour = relative(evaporated - found.transpiration, {evaporated, found.transpiration});

@@ -8,8 +8,6 @@
 namespace espalier::environment::leaf {
 namespace {
 
-constexpr double vapour_to_carbon = 1.6;  // ratio of diffusivities in still air
-
 Opening medlyn(const Stomata& stomata, const AtSurface& at, double factor) {
     const double opened = factor * stomata.slope / std::sqrt(at.deficit);
     const double by_assimilation = vapour_to_carbon * (1 + opened) / at.carbon_dioxide;

@@ -90,11 +90,15 @@ std::vector<OrganQuantity> OrganLight::organ_quantities(bool with_errors) const 
         all.push_back({of_band("absorbed", bands_, b), unit, "light that the organ absorbs in the step"});
         all.push_back({of_band("flux", bands_, b), in_energy_ ? "W m-2" : "umol m-2 s-1",
                        "light that leaves absorb per area of one side, while there is light"});
+        all.push_back({of_band("power", bands_, b), "W m-2",
+                       "energy that leaves absorb per area of one side, while there is light"});
         all.push_back({of_band("front", bands_, b), unit, "light that falls on the front"});
         all.push_back({of_band("back", bands_, b), unit, "light that falls on the back"});
         all.push_back({of_band("reflected", bands_, b), unit, "light that falls on the organ and is not absorbed"});
         if (with_errors) all.push_back({of_band("error", bands_, b), unit, "standard error of what it absorbs"});
     }
+    all.push_back({"area", "m2", "area of leaves, one side"});
+    all.push_back({"lit", "s", "how long there is light in the step"});
     all.push_back({"sunlit", "", "share of the sun's light that no other organ takes away"});
     all.push_back({"brightest", "", "direction to the light that falls on it, as a mean", 3});
     return all;
@@ -108,7 +112,10 @@ double OrganLight::value(const std::string& what, std::size_t slot, std::size_t 
     if (what == "reflected") return amount(meeting.front + meeting.back - meeting.absorbed, band);
     if (what == "error") return amount(meeting.error, band);
     const double area = area_of(slot);
-    return area > 0 && light_.seconds > 0 ? 1e6 * in_unit(meeting.absorbed, band) / area / light_.seconds : no_value;
+    if (!(area > 0 && light_.seconds > 0)) return no_value;
+    const double photons = 1e6 * meeting.absorbed * factors_[band] / area / light_.seconds;
+    if (what == "power") return photons / bands_[band].photons;
+    return units_[band] * photons;
 }
 
 std::shared_ptr<const std::vector<float>> OrganLight::organ_values(const std::string& name, std::uint32_t plant) const {
@@ -121,6 +128,14 @@ std::shared_ptr<const std::vector<float>> OrganLight::organ_values(const std::st
             for (int k = 0; k < 3; ++k) {
                 values->push_back(static_cast<float>(length > 0 ? views_[slot].towards[k] / length : no_value));
             }
+        }
+        return values;
+    }
+    if (name == "area" || name == "lit") {
+        for (std::size_t slot = first; slot < end; ++slot) {
+            const bool is_leaf = areas_[slot] > 0;
+            const double value = name == "area" ? areas_[slot] : has_time_passed_ ? light_.seconds : 0;
+            values->push_back(static_cast<float>(is_leaf ? value : no_value));
         }
         return values;
     }

@@ -1,5 +1,6 @@
 // Water in roots: the network of each plant in the soil of a process soil-water with model = "richards".
 // Doussan et al. 1998; Meunier et al. 2017; Schroeder et al. 2008; Feddes et al. 1978; Couvreur et al. 2012.
+#include "espalier/environment/environment.h"
 #include "espalier/environment/environment_process.h"
 
 #include "environment/roots/internode_water.h"
@@ -97,6 +98,7 @@ public:
     void begin(const WorldView& world, const SoilLayout& soil) override {
         roots_.clear();
         plants_.clear();
+        demands_.clear();
         std::fill(lengths_.begin(), lengths_.end(), 0);
         for (const PlantView& plant : world.plants) {
             plants_.push_back(plant.plant);
@@ -104,6 +106,7 @@ public:
             if (roots.left_at) shared_.warn_of_root_outside(plant.plant, *roots.left_at);
             roots_.emplace_back(std::move(roots), soil);
             roots_.back().add_lengths(lengths_);
+            demands_.push_back(demand_of_leaves(plant.plant, world));
         }
         for (PlantUptake& roots : roots_) roots.surround(lengths_, zone_ && model_ == UptakeModel::network);
         for (Transpired& plant : transpired_) {
@@ -127,8 +130,9 @@ public:
         mean_demand_ = collar_.held ? 0 : collar_.mean_demand(day, days);
         const double demand = std::max(0.0, (mean_demand_ - (1 - weight) * last_demand_) / weight);
         const double held = collar_.held ? collar_.head.at(day + 0.5 * days) : 0;
-        for (PlantUptake& plant : roots_) {
-            plant.solve(points, model_, collar_, feddes_, demand, held);
+        for (std::size_t p = 0; p < roots_.size(); ++p) {
+            PlantUptake& plant = roots_[p];
+            plant.solve(points, model_, collar_, feddes_, collar_.leaves.empty() ? demand : demands_[p], held);
             const PlantRoots& roots = plant.roots();
             for (std::size_t i = 0; i < roots.pieces.size(); ++i) {
                 if (roots.cells[i] == PlantRoots::no_cell) continue;
@@ -146,7 +150,7 @@ public:
             plant.rate = weight * roots_[i].water().transpiration() + (1 - weight) * plant.rate;
             plant.in_step += plant.rate * days;
             plant.total += plant.rate * days;
-            plant.wanted_in_step += mean_demand_ * days;
+            plant.wanted_in_step += (collar_.leaves.empty() ? mean_demand_ : demands_[i]) * days;
             const std::vector<double>& uptake = roots_[i].water().uptake;
             for (std::size_t piece = 0; piece < uptake.size(); ++piece) {
                 const double taken = std::max(0.0, uptake[piece]) * days;
@@ -231,6 +235,16 @@ private:
         return at == plants_.end() ? nullptr : &roots_[static_cast<std::size_t>(at - plants_.begin())];
     }
 
+    /// cm3/d: what the leaves of a plant give in this step.
+    double demand_of_leaves(std::uint32_t plant, const WorldView& world) const {
+        if (collar_.leaves.empty() || !world.environment) return 0;
+        const double demand = world.environment->statistic(collar_.leaves + ".transpiration", plant);
+        if (std::isfinite(demand)) return std::max(0.0, demand);
+        throw UserError(
+            fmt::format("the collar of '{}' needs a leaf-exchange called '{}', before the soil in the scene", name_,
+                        collar_.leaves));
+    }
+
     PlantRoots cut_roots(const PlantView& plant, const WorldView& world, const SoilLayout& soil) {
         if (!plant.interpretation || !plant.string) return {};
         const SaidOfRoots said = SaidOfRoots::of(plant, name_);
@@ -295,6 +309,7 @@ private:
     double days_in_step_ = 0;                   ///< that have passed; none in the first step
     std::vector<std::uint32_t> plants_;         ///< of this step, and their roots
     std::vector<PlantUptake> roots_;
+    std::vector<double> demands_;         ///< of their leaves, cm3/d
     std::vector<Transpired> transpired_;  ///< by plant
     WaterBrick lengths_;                  ///< of roots in each voxel, cm
     WaterField shown_uptake_, shown_lengths_;
@@ -311,9 +326,10 @@ radial         1/d, conductivity of a root's surface per cm of head, for all ord
 axial          cm3/d, conductance along a root times its length, for all orders: a number, or a curve
 along          "age", or "distance from tip"; what curves are read along, in days or cm
 orders         []; tables { radial, axial } by the order of branching, the last of which stands for all higher orders
-collar         required; what happens at the collar: a head, or a demand
+collar         required; what happens at the collar: a head, or a demand, which a number or leaves say
     head       pressure head at the collar, at most 0 cm, or { file = "weather.csv", column = "...", unit = "MPa" }
     transpiration  demand of each plant as long as the collar is above `limit`, cm3/d, or a column of a file
+    leaves     name of a leaf-exchange, before the soil in the scene: its leaves' transpiration in the step is the demand
     limit      lowest pressure head of the collar, by default -15000 cm
     by_day     true: the demand lasts from 6 to 18 o'clock, as a sine with the same mean over a day
 zone           true; the soil around each root is a hollow cylinder in which water moves at a steady rate

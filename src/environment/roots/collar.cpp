@@ -27,16 +27,19 @@ RootCollar RootCollar::read(const Settings& settings) {
     RootCollar collar;
     const Settings table = settings.table("collar");
     collar.held = table.has("head");
-    if (collar.held == table.has("transpiration")) {
-        throw UserError(settings.place("collar"), "'collar' needs one of 'head' (cm) and 'transpiration' (cm3/d)");
+    if (int{collar.held} + int{table.has("transpiration")} + int{table.has("leaves")} != 1) {
+        throw UserError(settings.place("collar"),
+                        "'collar' needs one of 'head' (cm), 'transpiration' (cm3/d) and 'leaves' (a leaf-exchange)");
     }
     if (collar.held) {
         // Above 0, the plant would press water into the soil.
         collar.head = SoilSeries::read_head(table, "head", Range::between(-1e6, 0));
         return collar;
     }
-    collar.demand = SoilSeries::read(table, "transpiration", 0, Range::between(0, 1e9));
+    collar.leaves = table.text_or("leaves", "");
     collar.limit = read_head_or(table, "limit", -15000, Range::between(-1e6, -1));
+    if (!collar.leaves.empty()) return collar;
+    collar.demand = SoilSeries::read(table, "transpiration", 0, Range::between(0, 1e9));
     collar.by_day = table.flag_or("by_day", false);
     return collar;
 }

@@ -5,6 +5,8 @@
 
 #include "environment/soil/series.h"
 
+#include <string>
+
 namespace espalier::environment {
 
 struct RootCollar {
@@ -12,6 +14,7 @@ struct RootCollar {
     SoilSeries head;        ///< pressure head at the collar, cm
     SoilSeries demand;      ///< potential transpiration, cm3/d for each plant
     double limit = -15000;  ///< cm: no demand draws the collar lower
+    std::string leaves;     ///< the process whose leaves say the demand; "": `demand` does
     bool by_day = false;    ///< the demand follows a sine from 6 to 18 o'clock; its mean is `demand`
 
     static RootCollar read(const Settings& settings);
