@@ -172,7 +172,7 @@ entry models/leaves/contour-leaf.l "Leaf traced along its edge" "Prusinkiewicz &
 entry models/leaves/cordate-leaf.l "Heart-shaped leaf" "Prusinkiewicz & Lindenmayer 1990, section 5.2"
 entry models/leaves/fern.l "Fern frond that unrolls" "after Prusinkiewicz & Lindenmayer 1990" --steps 44 -- --azimuth 25 --elevation 8 --size 360x360
 entry models/leaves/framework-leaf.l "Leaf on a growing framework" "Prusinkiewicz & Lindenmayer 1990, section 5.2"
-entry models/leaves/rose-leaf.l "Serrated leaf" "Prusinkiewicz & Lindenmayer 1990" -- --azimuth 20 --elevation 15 --no-ground --size 360x360
+entry models/leaves/rose-leaf.l "Serrated leaf" "Prusinkiewicz & Lindenmayer 1990" --define LC=8 -- --azimuth 20 --elevation 15 --no-ground --size 360x360
 entry models/leaves/simple-leaf.l "Leaf with midrib and ribs" "Prusinkiewicz & Lindenmayer 1990, figure 5.6"
 entry models/organs/horn.l "Horn" "Lintermann & Deussen 1999"
 entry models/organs/patch-leaf.l "Leaf as a patch" "Prusinkiewicz & Lindenmayer 1990, section 5.1"
@@ -251,14 +251,14 @@ entry environments/intercrop-lupine.toml "Two lupines" "Willey 1979; de Wit 1958
 entry environments/hydrotropism.toml "A root turns to water" "Jaffe, Takahashi & Biro 1985" -- --field water:slice --no-legend --azimuth 0 --elevation 5
 entry environments/chemotropism.toml "A root turns to fertiliser" "Newcombe & Rhodes 1904; Leitner et al. 2010" -- --field nitrate:slice --no-legend --azimuth 0 --elevation 5
 entry environments/stones.toml "Roots between stones" "Massa & Gilroy 2003" -- --field stone.distance:iso=0 --no-legend --elevation 8
-entry environments/plough-pan.toml "Roots above a plough pan" "Bengough et al. 2011" -- --elevation 3
-entry environments/dry-spell.toml "Roots after a dry spell" "Stasovski & Peterson 1991" -- --elevation 3
+entry environments/plough-pan.toml "Roots above a plough pan" "Bengough et al. 2011" -- --elevation 3 --size 540x540
+entry environments/dry-spell.toml "Roots after a dry spell" "Stasovski & Peterson 1991" -- --elevation 3 --size 540x540
 entry environments/tree-roots.toml "Roots of a tree" "Köstler, Brückner & Bibelriether 1968" -- --elevation 30
 entry environments/split-pot.toml "Split roots" "Couvreur et al. 2012" -- --field roots:slice --no-legend --azimuth 0 --elevation 5
 entry environments/nitrate-in-rain.toml "Nitrate that rain washes down" "van Leer 1974; Barber 1995" --steps 24 -- --field nitrate:slice --no-legend
-entry environments/barley-layers.toml "Barley in layers of nitrate" "Drew 1975"
-entry environments/barley-poor.toml "Barley in poor soil" "Drew 1975"
-entry environments/barley-rich.toml "Barley in rich soil" "Drew 1975"
+entry environments/barley-layers.toml "Barley in layers of nitrate" "Drew 1975" -- --size 540x540
+entry environments/barley-poor.toml "Barley in poor soil" "Drew 1975" -- --size 540x540
+entry environments/barley-rich.toml "Barley in rich soil" "Drew 1975" -- --size 540x540
 entry models/roots/maize.l "Maize roots" "Pagès, Jordan & Picard 1989"
 entry models/roots/wheat.l "Wheat roots" "Pagès, Jordan & Picard 1989"
 entry models/roots/lupine.l "Lupine roots" "Pagès, Jordan & Picard 1989"

@@ -18,8 +18,12 @@ render() { # PICTURE RUN [OPTIONS]
     "$espalier" render "$work/$2" --output "$work/$1" --quiet "${@:3}"
     with_palette "$1"
 }
-with_palette() { # PICTURE
-    local palette="split[a][b];[a]palettegen=max_colors=160:stats_mode=full[p];[b][p]paletteuse=dither=none"
+render_fine() { # PICTURE RUN WIDTH HEIGHT [OPTIONS]: what is thinner than a pixel is drawn larger and made smaller
+    "$espalier" render "$work/$2" --output "$work/$1" --quiet --size "$((3 * $3))x$((3 * $4))" "${@:5}"
+    with_palette "$1" "scale=$3:$4:flags=area,"
+}
+with_palette() { # PICTURE [FILTER]
+    local palette="${2:-}split[a][b];[a]palettegen=max_colors=160:stats_mode=full[p];[b][p]paletteuse=dither=none"
     ffmpeg -loglevel error -y -i "$work/$1" -filter_complex "$palette" -fflags +bitexact "$pictures/$1"
 }
 
@@ -38,7 +42,7 @@ grow plough-pan environments/plough-pan.toml
 grow plough-pan-loose environments/plough-pan.toml --set environment.strength.file=soils/loose.csv
 grow plough-pan-summer environments/plough-pan.toml --set environment.temperature.file=soils/summer.csv
 for soil in plough-pan plough-pan-loose plough-pan-summer; do
-    render "$soil.png" "$soil" --size 260x360 --no-legend --scale-bar --elevation 3
+    render_fine "$soil.png" "$soil" 260 360 --no-legend --scale-bar --elevation 3
 done
 grow dry-spell environments/dry-spell.toml
 grow dry-spell-wet environments/dry-spell.toml --set environment.head.file=soils/wet.csv
@@ -53,7 +57,7 @@ grow split-wet environments/split-pot.toml --set environment.water.regions.0.ini
 grow split-feddes environments/split-pot.toml --set 'environment.roots.model="feddes"'
 for nitrate in poor layers rich; do
     grow "barley-$nitrate" "environments/barley-$nitrate.toml"
-    render "barley-$nitrate.png" "barley-$nitrate" --size 260x330 --no-legend --azimuth 10 --elevation 3
+    render_fine "barley-$nitrate.png" "barley-$nitrate" 260 330 --no-legend --azimuth 10 --elevation 3
 done
 grow topiary environments/topiary-3d.toml
 grow forest environments/forest.toml --set plant.0.grid.columns=7 --set plant.0.grid.rows=7

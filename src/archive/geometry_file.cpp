@@ -92,6 +92,7 @@ FrameAttributes read_attributes(const VtkXmlFile& file, const XmlElement& sectio
     FrameAttributes result;
     result.for_columns([&](const char* name, auto& column) { read_column(file, section, name, count, column); });
     result.rgb = read_rgb(file, section, count);
+    if (VtkXmlFile::find(section, "organ")) result.organs = file.values<std::uint64_t>(section, "organ", count);
     const bool known = std::all_of(result.symbols.begin(), result.symbols.end(), [&](auto s) { return s < symbols; });
     if (!known) file.fail("a symbol has no name");
     return result;

@@ -32,6 +32,7 @@ void append_or_fill(Column& to, std::size_t rows_before, const Column& from, std
 void append(FrameAttributes& to, FrameAttributes& from, std::size_t first, std::size_t count) {
     const std::size_t before = to.size();
     append_or_fill(to.rgb, before, from.rgb, first, count, {});
+    append_or_fill(to.organs, before, from.organs, first, count, 0);
     append(to.identities, from.identities, first, count);
     append(to.parents, from.parents, first, count);
     append(to.plants, from.plants, first, count);

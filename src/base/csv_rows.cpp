@@ -6,6 +6,8 @@
 #include "base/csv_file.h"
 #include "base/number.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <sstream>
@@ -64,6 +66,12 @@ bool CsvRow::is_missing(std::size_t column) const {
                                       -999999.0, 6999.0,  -6999.0,  7999.0,    -7999.0};
     const std::optional<double> value = number(column);
     return value && std::find(codes.begin(), codes.end(), *value) != codes.end();
+}
+
+std::string CsvRow::words_of_missing(std::size_t column) const {
+    const std::string& cell = cells[column];
+    return fmt::format("'{}' stands for a value that was not measured (if it was, write {}{})", cell, cell,
+                       cell.find_first_of(".,") == std::string::npos ? ".01" : "1");
 }
 
 CsvRows::CsvRows(const std::filesystem::path& path, bool comments) : path_(path.string()) {

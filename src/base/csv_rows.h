@@ -20,6 +20,8 @@ struct CsvRow {
     /// Whether a cell stands for a value that was not measured: empty, a word as NA, or a number that loggers and
     /// weather files write instead of one, as 9999, -9999 or -6999.
     bool is_missing(std::size_t column) const;
+    /// Says so of a number, and what to write if it was measured none the less.
+    std::string words_of_missing(std::size_t column) const;
 
     bool has_decimal_commas = false;
 };

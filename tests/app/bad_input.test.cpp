@@ -230,17 +230,36 @@ TEST_CASE_METHOD(BadInput, "the file system's complaints are told in words", "[a
 }
 
 TEST_CASE_METHOD(BadInput, "a voxel that fields cannot have is refused with its place, in words", "[app]") {
-    write("ask.l", "environment p;\nlsystem: 1\nderivation length: 1\naxiom: F(0.0000005)A?p(0)\nendlsystem\n");
-    for (const std::string process : {"voxel-shade", "soil-water", "canopy-light"}) {
+    write("ask.l", "environment p;\nlsystem: 1\nderivation length: 1\naxiom: !(0.01)F(1)A?p(0)\nendlsystem\n");
+    const std::string solid = "shape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\n";
+    const std::vector<std::pair<std::string, std::string>> processes = {
+        {"voxel-shade", ""},
+        {"soil-water", ""},
+        {"nutrient", ""},
+        {"canopy-light", ""},
+        {"shape", solid},
+        {"greene", "solid = { shape = \"sphere\", center = [0, -1, 0], radius = 1 }\n"},
+        {"markers", "kill = 0.1\ncloud = { radii = [1, 1, 1], base = [0, 1, 0] }\n"}};
+    for (const auto& [process, more] : processes) {
         INFO(process);
         write("small.toml",
-              "[simulation]\ndomain = { lower = [0, 0, 0], upper = [1e-6, 1e-6, 1e-6] }\n"
+              "[simulation]\ndomain = { lower = [0, 0, 0], upper = [1e-5, 1e-5, 1e-5] }\n"
               "[[plant]]\nmodel = \"ask.l\"\n[environment.p]\nprocess = \"" +
-                  process + "\"\nvoxel = 1e-7\n");
+                  process + "\"\nvoxel = 1e-7\n" + more);
         const Outcome outcome = run("run small.toml --quiet --output no");
-        CHECK_THAT(outcome.err, !Contains("ArithmeticError"));
-        if (outcome.code != 0) CHECK_THAT(outcome.err, Contains("small.toml:"));
+        CHECK(outcome.code == 1);
+        CHECK_THAT(outcome.err, Contains("small.toml:7:1: 'voxel' must be at least 1.5e-05, not 1e-07"));
     }
+}
+
+TEST_CASE_METHOD(BadInput, "voxels too small for a plant are refused before it is cut into them", "[app]") {
+    write("ask.l", "environment p;\nlsystem: 1\nderivation length: 1\naxiom: !(0.01)F(1)A?p(0)\nendlsystem\n");
+    write("cut.toml", "[[plant]]\nmodel = \"ask.l\"\n[environment.p]\nprocess = \"canopy-light\"\nvoxel = 2e-5\n");
+    // Three strips of 50,000 pieces, in one row of voxels.
+    const Outcome outcome = run("run cut.toml --quiet --memory 16M --output no");
+    CHECK(outcome.code == 2);
+    CHECK_THAT(outcome.err, Contains("cut.toml:5:1") && Contains("1.5e+05 pieces") && Contains("larger voxels"));
+    CHECK(run("run cut.toml --quiet --set environment.p.voxel=0.01 --memory 16M --output yes").code == 0);
 }
 
 TEST_CASE_METHOD(BadInput, "the peak memory of a run is its own, whoever started it", "[app]") {

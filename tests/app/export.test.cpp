@@ -6,10 +6,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <sstream>
 
 namespace {
 
@@ -20,6 +22,13 @@ struct RunPlace : Workplace {
         REQUIRE(run("run bush.l --output run --quiet").code == 0);
     }
 };
+
+std::vector<std::string> cells_of(const std::string& line) {
+    std::vector<std::string> cells;
+    std::istringstream in(line);
+    for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+    return cells;
+}
 
 bool exists(const Workplace& place, const std::string& file) {
     return std::filesystem::exists(place.path() / file);
@@ -50,6 +59,32 @@ TEST_CASE("export takes chosen steps into a folder, and says what it wrote as JS
         CHECK(size == 84 + 50 * file["triangles"].get<std::size_t>());
     }
     CHECK(!exists(place, "run/export"));
+}
+
+TEST_CASE("the table numbers modules in the order of their births, alike in all frames", "[export]") {
+    const RunPlace place;
+    REQUIRE(place.run("export run --format csv --step 0: --output table.csv --quiet").code == 0);
+    std::istringstream lines(text_of(place.path() / "table.csv"));
+    std::string line;
+    std::getline(lines, line);
+    const std::vector<std::string> header = cells_of(line);
+    const auto at = [&](const std::string& name) {
+        return std::size_t(std::find(header.begin(), header.end(), name) - header.begin());
+    };
+    std::map<std::string, std::string> identities;
+    std::map<int, int> births;
+    while (std::getline(lines, line)) {
+        const std::vector<std::string> cells = cells_of(line);
+        const std::string& identity = cells.at(at("identity"));
+        CHECK(identities.emplace(cells.at(at("organ")), identity).first->second == identity);
+        births[std::stoi(cells.at(at("organ")))] = std::stoi(cells.at(at("birth")));
+    }
+    CHECK(births.size() > 10);
+    int before = 0;
+    for (const auto& [organ, birth] : births) {
+        CHECK(birth >= before);
+        before = birth;
+    }
 }
 
 TEST_CASE("export writes the file it is told, in the format of its name", "[export]") {

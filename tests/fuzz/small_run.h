@@ -20,6 +20,7 @@ lsystem: 1
 define: { array count[2]; }
 Start: { log = fopen("log.txt", "w"); }
 EndEach: { total = total + count[0]; fprintf(log, "%g\n", total); }
+seed: 5
 derivation length: 4
 axiom: ;(1)A(1)?light(1)[&(180)R?water(0.001,0,0,0)]
 A(x) : x > 0.2 --> F(x)[+A(x*0.7)?light(0.5)]A(x*0.9) : 2

@@ -29,6 +29,8 @@ struct FrameAttributes {
     Column<std::uint16_t> orders, colours;
     Column<Kind> kinds;
     Column<std::array<std::uint8_t, 3>> rgb;  ///< empty where no plant has a colour map
+    Column<std::uint64_t>
+        organs;  ///< numbers of the modules, from 0 in the order of births; empty in runs without them
 
     std::size_t size() const { return identities.size(); }
 

@@ -19,7 +19,9 @@ struct RenderJob {
     PictureStyle style;
     CameraPlace camera;
     double orbit = 0;            ///< degrees that the camera goes round while the frames pass
-    std::optional<bool> ground;  ///< none: where nothing grows beneath it
+    /// None: where it cuts through nothing that is drawn, and no field is; with paths of light, where not more grows
+    /// below it than above.
+    std::optional<bool> ground;
     bool follow = false;         ///< the camera frames each frame anew, instead of all together
     PictureSize size{1200, 900};
     /// Told after each frame that was drawn.

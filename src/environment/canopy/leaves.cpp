@@ -5,6 +5,7 @@
 #include "geometry/vectors.h"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -15,6 +16,22 @@ namespace espalier::environment {
 namespace {
 
 constexpr std::uint16_t leaf_material = 0;
+
+/// Three strips across the axis, each for two opposite sides of a prism with six: together they hide what it hides.
+constexpr int strips = 3;
+
+bool is_drawn(const Internode& internode) {
+    return internode.tip != internode.base && internode.base_radius + internode.tip_radius > 0;
+}
+
+double parts_of(const Internode& internode, double longest) {
+    return std::ceil(glm::distance(internode.base, internode.tip) / longest);
+}
+
+/// No triangle without a longer side is larger than the equilateral one.
+double least_pieces(const DrawnFace& face, double longest) {
+    return std::max(1.0, glm::length(face.area()) / (std::sqrt(3.0) / 4 * longest * longest));
+}
 
 /// Of a closed thing, half is turned away from any light.
 double seen_share(LitKind kind) {
@@ -29,6 +46,7 @@ void CanopyLeaves::clear() {
 }
 
 void CanopyLeaves::add(const LeafPiece& piece) {
+    check_stop_();
     pieces_.push_back(piece);
     bounds_.add(piece.middle);
 }
@@ -43,10 +61,11 @@ void CanopyLeaves::add(std::uint32_t plant, std::uint32_t module, const glm::dve
 }
 
 void CanopyLeaves::add(std::uint32_t plant, const PlantGeometry& geometry, double longest, const Optics& optics,
-                       bool with_stems) {
+                       bool with_stems, const std::function<void(const ForeseenPieces&)>& require) {
     drawn_.clear();
     drawn_.add_leaves(plant, geometry);
     drawn_.add_bodies(plant, geometry);
+    if (require) require(foresee(geometry, longest, with_stems));
     for (std::size_t i = 0; i < drawn_.size(); ++i) {
         const DrawnFace face = drawn_[i];
         const LitKind kind = lit_kind(face.owner.of);
@@ -59,6 +78,32 @@ void CanopyLeaves::add(std::uint32_t plant, const PlantGeometry& geometry, doubl
         const std::uint16_t material = optics.require_material(LitKind::stem, internode.colour, plant);
         add_stem({plant, internode.module, material, LitKind::stem}, internode, longest);
     }
+}
+
+// A corner, or the end of a stem, is nearer than `longest` to the middle of the piece that has it.
+ForeseenPieces CanopyLeaves::foresee(const PlantGeometry& geometry, double longest, bool with_stems) const {
+    ForeseenPieces foreseen;
+    Box corners;
+    for (std::size_t i = 0; i < drawn_.size(); ++i) {
+        const DrawnFace face = drawn_[i];
+        if (lit_kind(face.owner.of) == LitKind::stem && !with_stems) continue;
+        foreseen.count += least_pieces(face, longest);
+        for (const glm::dvec3& corner : face.corners) corners.add(corner);
+    }
+    for (const Internode& internode : geometry.internodes) {
+        if (!with_stems || !is_drawn(internode)) continue;
+        foreseen.count += strips * parts_of(internode, longest);
+        corners.add(internode.base);
+        corners.add(internode.tip);
+    }
+    foreseen.box = bounds_;
+    if (!corners.empty()) {
+        const glm::dvec3 middle = 0.5 * (corners.lower + corners.upper);
+        foreseen.box.add(glm::min(corners.lower + longest, middle));
+        foreseen.box.add(glm::max(corners.upper - longest, middle));
+    }
+    foreseen.count += static_cast<double>(pieces_.size());
+    return foreseen;
 }
 
 void CanopyLeaves::add(const DrawnFace& face, const Owner& owner, double longest) {
@@ -86,19 +131,18 @@ void CanopyLeaves::cut(const Owner& owner, const glm::dvec3& a, const glm::dvec3
     }
 }
 
-// Three strips across the axis, each for two opposite sides of a prism with six: together they hide what it hides.
 void CanopyLeaves::add_stem(const Owner& owner, const Internode& internode, double longest) {
     const glm::dvec3 along = internode.tip - internode.base;
     const double length = glm::length(along);
-    if (!(length > 0) || !(internode.base_radius + internode.tip_radius > 0)) return;
-    const int parts = static_cast<int>(std::ceil(length / longest));
+    if (!is_drawn(internode)) return;
+    const auto parts = static_cast<std::int64_t>(parts_of(internode, longest));
     const glm::dvec3 x = any_across(along / length), y = glm::cross(along / length, x);
-    for (int i = 0; i < parts; ++i) {
-        const double t = (i + 0.5) / parts;
+    for (std::int64_t i = 0; i < parts; ++i) {
+        const double t = (double(i) + 0.5) / double(parts);
         const double radius = (1 - t) * internode.base_radius + t * internode.tip_radius;
-        const double strip = std::numbers::pi / 3 * radius * length / parts;
-        for (int side = 0; side < 3; ++side) {
-            const auto [sine, cosine] = math::sine_and_cosine(std::numbers::pi / 3 * side);
+        const double strip = std::numbers::pi / strips * radius * length / double(parts);
+        for (int side = 0; side < strips; ++side) {
+            const auto [sine, cosine] = math::sine_and_cosine(std::numbers::pi / strips * side);
             add(owner, internode.base + t * along, strip * (cosine * x + sine * y));
         }
     }

@@ -1,6 +1,7 @@
 // Leaf area in voxels, piece by piece.
 #pragma once
 
+#include "espalier/base/stop.h"
 #include "espalier/geometry/plant_geometry.h"
 
 #include "environment/canopy/leaf_angles.h"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -52,12 +54,20 @@ std::vector<float> per_volume(const CanopyVoxels& voxels, const SortedPieces& so
     return values;
 }
 
+/// What cutting would make at least, known before it begins.
+struct ForeseenPieces {
+    double count = 0;
+    Box box;  ///< pieces lie beyond each of its sides, or on it
+};
+
 class CanopyLeaves {
 public:
     void clear();
     /// Everything flat that the plant has drawn, its spheres, and its stems if asked for, cut into pieces no longer
-    /// than `longest`, metres. Throws RunError for leaves whose colour no material names.
-    void add(std::uint32_t plant, const PlantGeometry& geometry, double longest, const Optics& optics, bool with_stems);
+    /// than `longest`, metres. `require` hears before of all pieces, with those of earlier plants, and may throw.
+    /// Throws RunError for leaves whose colour no material names.
+    void add(std::uint32_t plant, const PlantGeometry& geometry, double longest, const Optics& optics, bool with_stems,
+             const std::function<void(const ForeseenPieces&)>& require = nullptr);
     /// Area (m2) at a place, without a direction of its own.
     void add(std::uint32_t plant, std::uint32_t module, const glm::dvec3& place, double area);
 
@@ -77,6 +87,7 @@ private:
         LitKind kind;
     };
 
+    ForeseenPieces foresee(const PlantGeometry& geometry, double longest, bool with_stems) const;
     void add(const DrawnFace& face, const Owner& owner, double longest);
     void cut(const Owner& owner, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double longest);
     void add_stem(const Owner& owner, const Internode& internode, double longest);
@@ -87,6 +98,7 @@ private:
     std::vector<std::size_t> starts_;
     DrawnFaces drawn_;
     Box bounds_;
+    StopCheck<4096> check_stop_;
 };
 
 double area_of(const LeafPiece& piece);

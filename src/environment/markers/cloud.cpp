@@ -266,7 +266,8 @@ const char* const cloud_help =
     base     [0, 0, 0] m; the middle of the lower end of the ellipsoid
     below    0, 0 to 1; share of the ellipsoid's height that is cut off at the lower end
     above    0, 0 to 1; the same at the upper end
-    rough    0, 0 to 0.9; by what share of the radii its rim retreats in places; it still reaches the six sides
+    rough    0, 0 to 0.9; by what share of the radii its rim retreats in places; what is left is stretched to the six sides, so that a
+             crown is as wide, deep and high as without
     shape    none; { shape = "...", ... }: points in a solid of `espalier list shapes`
     points   none, m; [[x, y, z], ...]: these points
     density  20 points/m3, > 0; how many points an ellipsoid or a solid has

@@ -23,6 +23,8 @@ namespace {
 
 // Fluxes of a beam and of all, depth, what is added, and what fields show.
 constexpr double bytes_per_voxel = 8 + 2 * 4 + 4 * 8 + 2 * 5;
+// Itself and its copy while they are sorted; what its two sides meet, and the sun.
+constexpr double bytes_per_piece = 2 * sizeof(LeafPiece) + 4 * 8 + 5 * 8;
 
 LeafAngles read_angles(const Settings& settings) {
     if (settings.has("leaf_ratio")) return LeafAngles(settings.number("leaf_ratio", Range::between(0.01, 100)));
@@ -50,7 +52,7 @@ public:
           organs_(settings, optics_.bands(), context.plants),
           angles_(read_angles(settings)),
           options_(read_options(settings)),
-          edge_(settings.number_or("voxel", 0.2, Range::positive())),
+          edge_(read_voxel(settings, 0.2)),
           edge_place_(settings.place("voxel")),
           ground_(settings.number_or("ground", 0)),
           days_(settings.number_or("days", 1, Range::positive())),
@@ -110,7 +112,9 @@ public:
     Spreading spreading() const override { return Spreading::plants; }
 
     ProcessMemory memory() const override {
-        return {static_cast<std::size_t>(bytes_per_voxel * static_cast<double>(voxels_.count())), true};
+        return {static_cast<std::size_t>(
+                    bytes_of(static_cast<double>(voxels_.count()), static_cast<double>(leaves_.pieces().size()))),
+                true};
     }
     void limit_memory(std::size_t bytes) override { memory_ = bytes; }
 
@@ -134,7 +138,8 @@ private:
         leaves_.clear();
         if (!asks_area_) {
             for (const PlantView& plant : world.plants) {
-                leaves_.add(plant.plant, plant.drawn(), edge_, optics_, stems_);
+                leaves_.add(plant.plant, plant.drawn(), edge_, optics_, stems_,
+                            [&](const ForeseenPieces& all) { require_memory(voxels_over(all.box).size, all.count); });
             }
             return;
         }
@@ -157,30 +162,40 @@ private:
             if (const std::optional<Box> bounds = solid->bounds()) box.add(*bounds);
         }
         if (box.empty()) box.add(glm::dvec3(0));
-        box.lower.y = std::min(box.lower.y, ground_ + 1e-9 * edge_);
-        if (period_) {
-            for (const int axis : {0, 2}) {
-                box.lower[axis] = period_->lower[axis];
-                box.upper[axis] = period_->upper[axis];
-            }
-        }
-        glm::dvec3 first = glm::floor(box.lower / edge_), size = glm::floor(box.upper / edge_) + 1.0 - first;
-        if (period_) {
-            for (const int axis : {0, 2}) {
-                first[axis] = box.lower[axis] / edge_;
-                size[axis] = std::round((box.upper[axis] - box.lower[axis]) / edge_);
-            }
-        }
-        require_memory(size);
-        voxels_ = {first * edge_, glm::ivec3(size), edge_, period_.has_value()};
+        const VoxelsOver over = voxels_over(box);
+        require_memory(over.size, static_cast<double>(leaves_.pieces().size()));
+        voxels_ = {over.first * edge_, glm::ivec3(over.size), edge_, period_.has_value()};
     }
 
-    void require_memory(const glm::dvec3& size) const {
-        const double voxels = size.x * size.y * size.z, bytes = voxels * bytes_per_voxel;
-        if (voxels < 2e9 && bytes <= static_cast<double>(memory_)) return;
-        throw RunError(fmt::format("{}: '{}' would have {} voxels and take {} GB: use larger voxels or more memory",
-                                   to_string(edge_place_), name_, format_general(voxels), format_general(bytes / 1e9)));
+    /// In voxels, of those over a box and down to the ground.
+    struct VoxelsOver {
+        glm::dvec3 first, size;
+    };
+    VoxelsOver voxels_over(Box box) const {
+        box.lower.y = std::min(box.lower.y, ground_ + 1e-9 * edge_);
+        VoxelsOver over;
+        over.first = glm::floor(box.lower / edge_);
+        over.size = glm::floor(box.upper / edge_) + 1.0 - over.first;
+        for (const int axis : {0, 2}) {
+            if (!period_) continue;
+            over.first[axis] = period_->lower[axis] / edge_;
+            over.size[axis] = std::round((period_->upper[axis] - period_->lower[axis]) / edge_);
+        }
+        return over;
     }
+
+    static double bytes_of(double voxels, double pieces) { return voxels * bytes_per_voxel + pieces * bytes_per_piece; }
+
+    void require_memory(const glm::dvec3& size, double pieces) const {
+        const double voxels = size.x * size.y * size.z, bytes = bytes_of(voxels, pieces);
+        if (voxels < 2e9 && bytes <= static_cast<double>(memory_)) return;
+        throw RunError(
+            fmt::format("{}: '{}' would have {} voxels and {} pieces of leaves and stems, and take {} GB: "
+                        "use larger voxels or more memory",
+                        to_string(edge_place_), name_, rounded(voxels), rounded(pieces), rounded(bytes / 1e9)));
+    }
+
+    static std::string rounded(double number) { return fmt::format("{:.3g}", number); }
 
     /// Voxels whose middles are in solids.
     void mark_solids() {
@@ -300,7 +315,7 @@ goes on in `scattering` directions, generation by generation. docs/light.md says
 ?name(a, ...)      with area = "queries": a is the leaf area (m2) of the query itself, and f, m, e come after it
 Three more parameters for each further band tell the same of it. Other parameters keep their values.
 
-voxel         0.2 m; edge of a voxel
+voxel         0.2 m, >= 1.5e-5; edge of a voxel
 beams         2: beams from each voxel's width of the top
 days          1: days that a unit of time stands for
 area          "drawn": leaves are the polygons, patches, surfaces, discs and open cylinders that plants have drawn; or

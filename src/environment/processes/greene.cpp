@@ -8,6 +8,7 @@
 
 #include "base/bytes.h"
 #include "base/parallel.h"
+#include "environment/covering.h"
 #include "environment/shade/exposure.h"
 #include "environment/shade/leaf_area.h"
 #include "environment/shade/sky_directions.h"
@@ -45,15 +46,15 @@ struct VineRoom {
     explicit VineRoom(const Settings& settings) {
         Settings table = settings.table("solid");
         solid = read_shape(table);
-        voxel = settings.number_or("voxel", 0.1, Range::positive());
+        voxel = read_voxel(settings, 0.1);
         reach = settings.number_or("reach", 0.2, Range::positive());
         clearance = settings.number_or("clearance", 0.01, Range::not_negative());
         ground = settings.number_or("ground", 0);
     }
 
     Voxel voxel_of(const glm::dvec3& place) const {
-        const glm::dvec3 at = glm::floor(place / voxel);
-        return {static_cast<int>(at.x), static_cast<int>(at.y), static_cast<int>(at.z)};
+        const glm::ivec3 at = voxel_at(place, voxel);
+        return {at.x, at.y, at.z};
     }
     glm::dvec3 centre_of(const Voxel& at) const { return voxel * (glm::dvec3(at[0], at[1], at[2]) + 0.5); }
     /// Near the surface, above the ground, and in a voxel that is not solid.
@@ -366,7 +367,7 @@ turn + up * its upward part - crowd * nodes in its voxel.
 ?name(p)                   is a node in its voxel, and keeps its value
 
 solid         required; the table of a solid: solid = { shape = "mesh", file = "house.obj" }
-voxel         0.1 m, > 0; edge of a voxel
+voxel         0.1 m, >= 1.5e-5; edge of a voxel
 reach         0.2 m, > 0; farthest from the surface that a segment may end
 clearance     0.01 m, >= 0; nearest to the surface that a segment may end
 ground        0 m; height below which nothing grows

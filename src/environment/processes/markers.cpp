@@ -5,6 +5,7 @@
 #include "espalier/base/math.h"
 #include "espalier/environment/environment_process.h"
 
+#include "environment/covering.h"
 #include "environment/markers/cloud.h"
 #include "environment/markers/colonization.h"
 #include "environment/markers/end_of_growth.h"
@@ -64,10 +65,6 @@ ColonizationRules read_rules(const Settings& settings) {
     return rules;
 }
 
-double read_voxel(const Settings& settings, double influence) {
-    return settings.number_or("voxel", std::isfinite(influence) ? influence / 2 : 1, Range::positive());
-}
-
 class Markers final : public EnvironmentProcess {
 public:
     Markers(Settings& settings, const EnvironmentContext& context, Fields& fields)
@@ -77,7 +74,7 @@ public:
           rules_(read_rules(settings)),
           kill_(settings, rules_.influence),
           tropism_(settings.vector_or("tropism", {0, 0, 0}) * settings.vector_or("weight", {1, 1, 1})),
-          voxel_(read_voxel(settings, rules_.influence)),
+          voxel_(read_voxel(settings, std::isfinite(rules_.influence) ? rules_.influence / 2 : 1)),
           points_(read_clouds(settings, context, context.memory / Colonization::bytes_per_point), rules_),
           won_(context.plants, 0),
           warnings_(context.warnings) {
@@ -161,7 +158,7 @@ private:
         VoxelValues left(voxel_, {0, 0, 0});
         for (std::size_t i = 0; i < points_.points().size(); ++i) {
             // All points, so that a viewer is shown the same box in every step.
-            left.add(glm::ivec3(glm::floor(points_.points()[i] / voxel_)), points_.is_left(i) ? 1.0f : 0.0f);
+            left.add(voxel_at(points_.points()[i], voxel_), points_.is_left(i) ? 1.0f : 0.0f);
         }
         return left.grid();
     }
@@ -198,7 +195,7 @@ contest    "nearest", or "perceived"; nearest: a point belongs to the nearest no
            perceived: to the nearest of the nodes that perceive it
 tropism    [0, 0, 0]; is added to the mean direction, whose length is 1
 weight     [1, 1, 1]; factors of the tropism's components
-voxel      half of the influence, m, > 0; edge of a voxel of the field, which counts the points left
+voxel      half of the influence, m, >= 1.5e-5; edge of a voxel of the field, which counts the points left
 )") + cloud_help +
         R"(
 Statistics: won (points, of the plant); left, in_reach (points) and winners (nodes) of the whole world.

@@ -54,9 +54,8 @@ private:
     double measured(const CsvRow& row, std::size_t column) const {
         const double value = number(row, column);
         if (!row.is_missing(column)) return value;
-        throw UserError(
-            table_.place(row, column),
-            fmt::format("'{}' stands for a value that was not measured: a profile has no gaps", row.cells[column]));
+        throw UserError(table_.place(row, column),
+                        fmt::format("{}: a profile has no gaps", row.words_of_missing(column)));
     }
 
     // Tables run downwards as a rule; the heights are kept rising.

@@ -65,6 +65,7 @@ public:
           organs_(settings, optics_.bands(), context.plants),
           lamps_(read_lamps(settings, optics_.bands(), context.warnings)),
           paths_(optics_, read_sensors(settings), read_path_options(settings, context)),
+          ground_(settings.number_or("ground", 0)),
           days_(settings.number_or("days", 1, Range::positive())),
           count_(static_cast<std::uint32_t>(settings.integer_or("paths", 1 << 16, Range::between(64, most_paths)))),
           accuracy_(settings.number_or("accuracy", 0, Range::between(0, 1))),
@@ -384,24 +385,35 @@ private:
     /// Of organs that are asked for, where the paths are too few to tell that they are in the dark.
     void warn_of_unmet(std::span<const Query> queries, int step) {
         constexpr double enough = 100;
-        if (warned_of_unmet_ || !(paths_.light() > 0)) return;
-        std::size_t count = 0;
+        if ((warned_of_unmet_ && warned_of_buried_) || !(paths_.light() > 0)) return;
+        std::size_t count = 0, buried = 0;
         double largest = 0;
         for (const Query& query : queries) {
             if (query.plant >= plants_) continue;
             const std::size_t slot = organs_.start(query.plant) + query.module + 1;
             if (slot >= organs_.start(query.plant + 1) || !(surfaces_[slot] > 0) || is_met(slot)) continue;
-            if (paths_in_the_open(surfaces_[slot]) >= enough) continue;
+            if (query.pose.position.y < ground_) ++buried;
+            if (query.pose.position.y < ground_ || paths_in_the_open(surfaces_[slot]) >= enough) continue;
             ++count;
             largest = std::max(largest, surfaces_[slot]);
         }
-        if (count == 0) return;
+        warn_of_buried(buried, step);
+        if (count == 0 || warned_of_unmet_) return;
         warned_of_unmet_ = true;
         warn(fmt::format(
             "in step {}, no path of '{}' met {} of the organs that are asked for: their light is answered as "
             "0, but is unknown. On open ground about {:.2g} of the {} paths would meet the largest of them: "
             "give more 'paths', or an 'accuracy'",
             step, name_, count, paths_in_the_open(largest), traced_));
+    }
+
+    void warn_of_buried(std::size_t count, int step) {
+        if (count == 0 || warned_of_buried_) return;
+        warned_of_buried_ = true;
+        warn(
+            fmt::format("in step {}, {} of the organs that '{}' is asked for begin below the ground, which is at y = "
+                        "{:g} m, and get no light: lower 'ground', or raise the plant",
+                        step, count, name_, ground_));
     }
 
     double open_share(const glm::dvec3& place, std::size_t band) const {
@@ -435,12 +447,12 @@ private:
     OrganLight organs_;
     std::vector<Lamp> lamps_;
     LightPaths paths_;
-    double days_;
+    double ground_, days_;
     std::uint32_t count_;
     double accuracy_;
     Place paths_place_;
     std::vector<Diagnostic>* warnings_;
-    bool warned_of_accuracy_ = false, warned_of_unmet_ = false;
+    bool warned_of_accuracy_ = false, warned_of_unmet_ = false, warned_of_buried_ = false;
     std::size_t plants_;
     std::vector<std::shared_ptr<const Shape>> solids_;
     double solid_voxel_ = 0.05, lit_hours_ = 24;

@@ -158,11 +158,11 @@ private:
 
     // A loop for each substance, with copies of the numbers: as one, the compiler makes none over vectors of it.
     void react(const Sheet::Stretch& at) {
-        const auto [cells, first, up, down, left, right] = at;
+        const std::size_t cells = at.cells, first = at.first;
         const double *a = activator_.data(), *h = inhibitor_.data(), *second = second_.data();
         const double *rate = production_.data() + first, *source = source_.data() + first;
         const auto flow = [=](const double* of, std::size_t i) {
-            return of[up + i] + of[down + i] + of[left + i] + of[right + i] - 4 * of[first + i];
+            return of[at.up + i] + of[at.down + i] + of[at.left + i] + of[at.right + i] - 4 * of[first + i];
         };
         const double strength = strength_, memory = memory_, second_spread = second_spread_;
         double* next = next_activator_.data() + first;

@@ -16,6 +16,7 @@
 #include "espalier/environment/environment_process.h"
 
 #include "base/parallel.h"
+#include "environment/covering.h"
 #include "environment/shapes/field.h"
 #include "geometry/grids/voxel_values.h"
 
@@ -93,7 +94,7 @@ public:
           box_(box_of_field()) {
         const glm::dvec3 side = box_.upper - box_.lower;
         const double longest = box_.empty() ? 128 : std::max({side.x, side.y, side.z});
-        voxel_ = settings.number_or("voxel", longest / 128, Range::positive());
+        voxel_ = read_voxel(settings, longest / 128);
         if (at_rest_->bounds()) box_ = {box_.lower - 4 * voxel_, box_.upper + 4 * voxel_};  // room for the band
         put_at(0, fields);
     }
@@ -186,7 +187,7 @@ std::string help() {
 ?name(i, d, x, y, z) -> x, y, z: outward normal of the nearest point of the surface
 ?name(i, d, x, y, z, a, b, c) -> a, b, c: nearest point of the surface
 
-voxel     longest side / 128, m, > 0; edge of the voxels of the field <name>.distance and of a mesh's level set
+voxel     longest side / 128, m, >= 1.5e-5; edge of the voxels of the field <name>.distance and of a mesh's level set
 motion    none; changes size and position, linearly between the times
     times     required; steps at which it has these values
     growth    none, m; by how much the solid is expanded at each time; none: nowhere

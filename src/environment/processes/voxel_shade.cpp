@@ -92,7 +92,7 @@ void require_period(const Box& domain, const ShadeLattice& lattice, const ShadeR
 
 ShadeLattice read_lattice(const Settings& settings, const EnvironmentContext& context, const ShadeRule& rule) {
     ShadeLattice lattice;
-    lattice.voxel = settings.number_or("voxel", lattice.voxel, Range::positive());
+    lattice.voxel = read_voxel(settings, lattice.voxel);
     lattice.flat = rule.flat;
     lattice.trilinear = settings.choice_or("sampling", "trilinear", {"trilinear", "nearest"}) == "trilinear";
     lattice.periodic = settings.flag_or("periodic", false);
@@ -256,7 +256,7 @@ square of half-width floor(spread q) voxels, by  s strength dissipation^-q.  A q
 ?name(s, x, y, z) -> light, and its gradient per metre: the brightest direction, not normalised
 Further parameters (at most 20 in all) keep their values.
 
-voxel           0.5 m, > 0; edge of a voxel. Whole voxels cover the domain about its middle; without a domain, the centre
+voxel           0.5 m, >= 1.5e-5; edge of a voxel. Whole voxels cover the domain about its middle; without a domain, the centre
                 of one voxel is at the origin
 mode            "add", or "attenuate"; add: Q = max(full_light - sum of shadows, 0);
                 attenuate: Q = full_light times the product of 1 - min(1, shadow)

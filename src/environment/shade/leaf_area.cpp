@@ -2,6 +2,7 @@
 
 #include "espalier/geometry/openvdb_grid.h"
 
+#include "environment/covering.h"
 #include "geometry/drawn/faces.h"
 
 #include <glm/common.hpp>
@@ -36,8 +37,8 @@ void LeafArea::collect(std::span<const PlantView> plants) {
 }
 
 void LeafArea::add(const glm::dvec3& middle, double area) {
-    const glm::dvec3 at = glm::floor(middle / voxel_);
-    const openvdb::Coord voxel(static_cast<int>(at.x), static_cast<int>(at.y), static_cast<int>(at.z));
+    const glm::ivec3 at = voxel_at(middle, voxel_);
+    const openvdb::Coord voxel(at.x, at.y, at.z);
     openvdb::FloatTree& areas = voxels_->areas->tree();
     areas.setValue(voxel, areas.getValue(voxel) + static_cast<float>(area));
     voxels_->box.expand(voxel);

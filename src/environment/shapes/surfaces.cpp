@@ -1,4 +1,5 @@
 // Shapes bounded by triangles: mesh files and height fields.
+#include "environment/covering.h"
 #include "environment/shapes/kinds.h"
 #include "environment/shapes/level_set.h"
 #include "environment/shapes/mesh_file.h"
@@ -172,7 +173,7 @@ ShapePointer read_mesh(Settings& table) {
     TriangleMesh mesh = read_mesh_file(file, scale_of(table), place);
     const glm::dvec3 extent = mesh.bounds().upper - mesh.bounds().lower;
     const double longest = std::max({extent.x, extent.y, extent.z});
-    const double voxel = table.number_or("voxel", longest / 128, Range::positive());
+    const double voxel = read_voxel(table, longest / 128);
     LevelSet level_set(mesh, voxel, file.string(), table.has("voxel") ? table.place("voxel") : place);
     return std::make_shared<MeshShape>(std::move(mesh), std::move(level_set));
 }

@@ -71,8 +71,7 @@ SoilSeries SoilSeries::read_file(const Settings& table, const std::string& colum
         series.values_.push_back(number_in(*row, column, column_name, place, range, convert));
         if (!row->is_missing(column)) continue;
         throw UserError(place,
-                        fmt::format("'{}' of '{}' stands for a value that was not measured: a series has no gaps",
-                                    row->cells[column], column_name));
+                        fmt::format("{}: the series '{}' has no gaps", row->words_of_missing(column), column_name));
     }
     if (series.times_.empty()) throw UserError({path.string(), 1, 0}, "this series has no lines");
     return series;

@@ -135,7 +135,7 @@ max_substep    0.05 d, 1e-06 to 10000; between two exchanges of movement and upt
 Without a soil of model = "richards" the solute needs a space of its own, and these count:
 
 domain         the domain of the scene, m; { lower = [x, y, z], upper = [x, y, z] }
-voxel          required, m; edge of a voxel
+voxel          required, m, >= 1.5e-5; edge of a voxel
 content        0.3 m3/m3; water content everywhere, if no linear soil gives it
 porosity       0.43 m3/m3, 0.01 to 1; content of full soil, for the tortuosity
 flow           0 cm/d; Darcy flux downwards, everywhere

@@ -3,6 +3,7 @@
 #include "espalier/base/math.h"
 
 #include "base/text.h"
+#include "environment/covering.h"
 
 #include <fmt/format.h>
 
@@ -152,7 +153,7 @@ void read_water_space(Settings& settings, const EnvironmentContext& context, Wat
     parameters.settings_place = settings.place();
     parameters.voxel_place = settings.place("voxel");
     parameters.domain = read_domain(settings, context);
-    parameters.voxel = settings.number("voxel", Range::positive());
+    parameters.voxel = read_voxel(settings);
     parameters.flat = read_flatness(settings, parameters.domain, parameters.voxel);
     for (Settings& table : settings.tables("obstacles")) parameters.obstacles.push_back(read_shape(table));
     parameters.obstacle_field = settings.text_or("obstacle_field", "");
@@ -207,7 +208,7 @@ const char* const soil_water_help = R"(A content (water in m3/m3, or any concent
 
 model            "linear" (default): diffusion, described here; "richards", "still": see below
 domain           { lower = [x, y, z], upper = [x, y, z] }  m; default: the scene's
-voxel            m, required; the domain is covered by whole voxels about its middle
+voxel            m, required, >= 1.5e-5; the domain is covered by whole voxels about its middle
 dimensions       2 or 3; default 2 if the domain is at most one voxel deep (z); then z is ignored
 unit             text, "m3/m3"; "1" for a plain concentration
 initial          content everywhere, 0

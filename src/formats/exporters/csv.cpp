@@ -17,13 +17,11 @@
 namespace espalier::formats {
 namespace {
 
-/// What a row says of the module.
+/// What a row says of the module: its attributes stand in a row of a frame's points or cells.
 struct Described {
     const char* kind;
-    std::uint32_t plant;
-    std::uint16_t symbol, order, colour;
-    std::uint64_t identity, parent;
-    std::int32_t birth;
+    const FrameAttributes& of;
+    std::size_t row;
 };
 
 class Table {
@@ -53,7 +51,8 @@ private:
 
     void add_header(const FrameGeometry& geometry) {
         text_ =
-            "step,time,plant,name,kind,symbol,identity,parent,birth,order,colour,x,y,z,end_x,end_y,end_z,length,radius,"
+            "step,time,plant,name,kind,symbol,identity,organ,parent,birth,order,colour,x,y,z,end_x,end_y,end_z,length,"
+            "radius,"
             "area,volume";
         for (const auto& [name, values] : geometry.parameters) {
             parameters_.push_back(name);
@@ -62,10 +61,13 @@ private:
         text_ += '\n';
     }
 
-    void begin_row(const RecordedFrame& frame, const FrameGeometry& geometry, const Described& of) {
-        put("{},{},{},{},{},{},{},{},{},{},{}", frame.step, format_exact(frame.time), of.plant,
-            csv_text(job_.run.plants()[of.plant].name), of.kind, csv_text(geometry.symbol_names[of.symbol]),
-            of.identity, of.parent, of.birth, of.order, of.colour);
+    void begin_row(const RecordedFrame& frame, const FrameGeometry& geometry, const Described& described) {
+        const auto& [kind, of, row] = described;
+        put("{},{},{},{},{},{},{},", frame.step, format_exact(frame.time), of.plants[row],
+            csv_text(job_.run.plants()[of.plants[row]].name), kind, csv_text(geometry.symbol_names[of.symbols[row]]),
+            of.identities[row]);
+        if (!of.organs.empty()) put("{}", of.organs[row]);
+        put(",{},{},{},{}", of.parents[row], of.births[row], of.orders[row], of.colours[row]);
         ++rows_;
     }
 
@@ -87,9 +89,7 @@ private:
 
     void add_internode(const RecordedFrame& frame, const FrameGeometry& geometry, const FrameInternode& internode) {
         const std::size_t point = internode.tip_point.row();
-        begin_row(frame, geometry,
-                  {"internode", internode.plant, internode.symbol, internode.order, internode.colour,
-                   internode.identity, internode.parent, internode.birth});
+        begin_row(frame, geometry, {"internode", geometry.of_points, point});
         put(internode.base);
         put(internode.tip);
         const double length = glm::distance(internode.base, internode.tip);
@@ -136,10 +136,7 @@ private:
             }
             area += areas.of(cell);
         }
-        const FrameAttributes& of = geometry.of_cells;
-        begin_row(frame, geometry,
-                  {"organ", of.plants[row], of.symbols[row], of.orders[row], of.colours[row], of.identities[row],
-                   of.parents[row], of.births[row]});
+        begin_row(frame, geometry, {"organ", geometry.of_cells, row});
         put(base);
         put(farthest);
         put(",{},,{},", format_exact(glm::distance(base, farthest)), format_exact(area));
@@ -154,9 +151,7 @@ private:
             const auto corners = geometry.vertices[cell];
             if (of.kinds[row] != Kind::query || corners.empty() || !wanted(of.plants[row])) continue;
             const auto point = static_cast<std::size_t>(corners[0]);
-            begin_row(frame, geometry,
-                      {"query", of.plants[row], of.symbols[row], of.orders[row], of.colours[row], of.identities[row],
-                       of.parents[row], of.births[row]});
+            begin_row(frame, geometry, {"query", of, row});
             put(geometry.points[point]);
             text_ += ",,,,,,,";
             end_row(geometry, point);
@@ -184,8 +179,9 @@ public:
 
 const Registered<ExporterType> entry{
     {"csv", "a table with a row per frame and internode, organ or answered query: for R, pandas, spreadsheets",
-     "Columns: step, time, plant (its number), name, kind (internode, organ, query), symbol, identity, parent, birth, "
-     "order, colour, x, y, z, end_x, end_y, end_z,\n"
+     "Columns: step, time, plant (its number), name, kind (internode, organ, query), symbol, identity, organ (number "
+     "of "
+     "the module, from 0 in the order of births), parent, birth, order, colour, x, y, z, end_x, end_y, end_z,\n"
      "length, radius, area (m2, of one side of an organ), volume, and the run's chosen parameters. All frames in one "
      "file.\n"
      "Lost: the shape of organs",

@@ -3,6 +3,7 @@
 #include "espalier/base/error.h"
 
 #include "base/text.h"
+#include "geometry/grids/voxel_values.h"
 
 #include <fmt/format.h>
 
@@ -24,10 +25,9 @@ void initialize_openvdb() {
 }
 
 openvdb::math::Transform::Ptr voxel_transform(double voxel) {
-    constexpr double smallest = 1.5e-5;  // OpenVDB takes a volume below 3e-15 for zero
-    if (voxel < smallest) {
+    if (voxel < smallest_voxel) {
         throw UserError(fmt::format("voxels of {} m are too small: fields have voxels of {} m or more",
-                                    format_general(voxel), format_general(smallest)));
+                                    format_general(voxel), format_general(smallest_voxel)));
     }
     return openvdb::math::Transform::createLinearTransform(voxel);
 }

@@ -11,6 +11,9 @@
 
 namespace espalier::geometry {
 
+/// Metres. OpenVDB takes the volume of a smaller voxel for zero.
+constexpr double smallest_voxel = 1.5e-5;
+
 /// A field's grid in the making: voxels of edge `voxel`, that of (0, 0, 0) with its centre at `origin` + voxel/2;
 /// `unset` where nothing is set.
 class VoxelValues {

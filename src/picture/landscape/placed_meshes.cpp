@@ -35,7 +35,8 @@ void PlacedMeshes::place(std::vector<RayPlace> places) {
     std::vector<geometry::RayScene::Part> parts;
     for (const RayMesh* mesh : meshes_) corners.push_back(mesh->corners());
     for (std::size_t k = 0; k < meshes_.size(); ++k) {
-        geometry::RayScene::Part& part = parts.emplace_back(corners[k]);
+        geometry::RayScene::Part& part = parts.emplace_back();
+        part.corners = corners[k];
         for (const RayPlace& place : places_[k]) part.places.push_back(matrix_of(place));
     }
     rays_.set_parts(parts);

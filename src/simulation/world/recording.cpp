@@ -37,10 +37,10 @@ const World::State::Recorded& World::State::what_is_recorded() {
     const auto any_recorder = [&](const auto& is_one) {
         return any(ranks, std::any_of(recorders.begin(), recorders.end(), is_one));
     };
-    recorded.emplace();
-    recorded->anything = any_recorder([](const Recorder*) { return true; });
-    recorded->fields = any_recorder([](const Recorder* recorder) { return !recorder->fields().empty(); });
-    return *recorded;
+    Recorded found;
+    found.anything = any_recorder([](const Recorder*) { return true; });
+    found.fields = any_recorder([](const Recorder* recorder) { return !recorder->fields().empty(); });
+    return recorded.emplace(found);
 }
 
 void World::State::record() {

@@ -86,7 +86,7 @@ void InternodeLives::record(int step, const PlantFrame& plant, std::span<const s
     if (!internodes.empty() && !string.has_lineage()) {
         throw RunError(fmt::format("lifespans need the lineage of plant '{}', which is not kept", plant.name));
     }
-    for (const std::uint32_t life : living_) lives_[life].alive = false;
+    for (const std::uint32_t life : living_) lives_[life].alive = 0;
     next_living_.clear();
     std::size_t expected = 0;
     std::uint32_t part = 0;
@@ -103,7 +103,7 @@ void InternodeLives::record(int step, const PlantFrame& plant, std::span<const s
                       part,
                       static_cast<std::int32_t>(string.step_of_birth(module)),
                       0,
-                      true,
+                      1,
                       symbols[string.letters[module]],
                       internode.order,
                       internode.colour,
@@ -131,7 +131,10 @@ void InternodeLives::save(std::ostream& out) const {
 
 void InternodeLives::restore(std::istream& in) {
     previous_step_ = get<int>(in);
-    for (auto lives = get<std::uint64_t>(in); lives > 0; --lives) lives_.push_back(get<InternodeLife>(in));
+    for (auto lives = get<std::uint64_t>(in); lives > 0; --lives) {
+        lives_.push_back(get<InternodeLife>(in));
+        if (lives_.back().alive > 1) throw RunError("the checkpoint is damaged");
+    }
     for (auto living = get<std::uint64_t>(in); living > 0; --living) {
         living_.push_back(get<std::uint32_t>(in));
         if (living_.back() >= lives_.size()) throw RunError("the checkpoint is damaged");

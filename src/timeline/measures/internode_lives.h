@@ -18,7 +18,7 @@ struct InternodeLife {
     std::uint32_t part;   ///< a module may draw several internodes; this is its part-th
     std::int32_t birth;   ///< birth of the module
     std::int32_t death;   ///< first step without it; meaningful once it is dead
-    bool alive;
+    std::uint8_t alive;   ///< 1, or 0 once it is dead: bytes of a checkpoint may be no bool
     std::uint16_t symbol, order, colour;
     glm::vec3 base, tip;  ///< as last seen
     float base_radius, tip_radius;

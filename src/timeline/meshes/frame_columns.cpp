@@ -77,6 +77,7 @@ FrameAttributes attributes_of(const OwnerArrays& arrays) {
     FrameAttributes result;
     result.for_columns([&](const char* name, auto& column) { arrays.copy(name, column); });
     arrays.copy("rgb", result.rgb);
+    arrays.copy("organ", result.organs);
     return result;
 }
 

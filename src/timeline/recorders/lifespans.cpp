@@ -64,7 +64,7 @@ public:
         add_array("death", [this](const Row& row) { return death_of(*row.life); });
         add_array("birth_time", [this](const Row& row) { return row.life->birth * dt_; });
         add_array("death_time", [this](const Row& row) { return death_of(*row.life) * dt_; });
-        add_array("alive", [](const Row& row) { return static_cast<std::uint8_t>(row.life->alive); });
+        add_array("alive", [](const Row& row) { return row.life->alive; });
         add_array("order", [](const Row& row) { return row.life->order; });
         add_array("colour", [](const Row& row) { return row.life->colour; });
         file_.close();

@@ -144,6 +144,20 @@ TEST_CASE("a night brings no light, and asks for none", "[canopy-light]") {
     CHECK(statistic(environment, "incoming") == 0);
 }
 
+TEST_CASE("a leaf wider than its voxels shades itself there, one much smaller does not", "[canopy-light]") {
+    const auto share = [](const std::string& voxel) {
+        Environment environment = canopy_light("voxel = " + voxel + "\n" + sun_at_zenith);
+        AskingPlants plants;
+        plants.add({{{0.6, 1.05, 0.8}, {0}}, {{0, 0, 0}, {0}}});
+        draw_square(plants.interpretation(0).geometry, 1, {0.6, 1.05, 0.8}, {1, 0, 0}, {0, 0, 1}, 0.4);
+        plants.exchange(environment, 1);
+        return plants.parameters()[0];
+    };
+    // (1 - exp(-x)) / x, where a layer of voxels holds x of leaf area.
+    for (const char* voxel : {"0.2", "0.1", "0.05"}) CHECK(share(voxel) == Approx(1 - std::exp(-1.0)).epsilon(1e-5));
+    CHECK(share("8") == Approx((1 - std::exp(-0.0025)) / 0.0025).epsilon(1e-5));
+}
+
 TEST_CASE("larger voxels smooth a clump of leaves away, and absorb more", "[canopy-light]") {
     double before = 0;
     for (const char* voxel : {"0.1", "0.25", "0.5", "1"}) {

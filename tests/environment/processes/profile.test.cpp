@@ -76,7 +76,11 @@ TEST_CASE_METHOD(Tables, "profile refuses a wrong table with its line and column
     CHECK(lacks(refusal("time, 0, 0\n0, 1, 2\n"), {"wrong.csv:1", "rise or fall"}) == "");
     CHECK(lacks(refusal("time, 0, deep\n0, 1, 2\n"), {"wrong.csv:1:3", "'deep' is not a number"}) == "");
     CHECK(lacks(refusal("time, 0, -1\n0, 1, nan\n"), {"wrong.csv:2:3", "'nan' is not a number"}) == "");
-    CHECK(lacks(refusal("time, 0, -1\n0, 1, -9999\n"), {"wrong.csv:2:3", "'-9999' stands for", "not measured"}) == "");
+    CHECK(lacks(refusal("time, 0, -1\n0, 1, -9999\n"),
+                {"wrong.csv:2:3", "'-9999' stands for", "not measured", "write -9999.01"}) == "");
+    write("dry.csv", "time, -1\n0, -9999.01\n");  // as it says
+    Environment dry = environment("dry.csv");
+    CHECK(answers(dry, {{{0, -1, 0}, {0}}}, 0) == std::vector<double>{-9999.01});
     CHECK(lacks(refusal("time, 0, -1\n9999, 1, NA\n"), {"wrong.csv:2:3", "'NA' is not a number"}) == "");
     CHECK(lacks(refusal("time; 0; -1\n0; 1,5; x\n"), {"wrong.csv:2:3", "'x' is not a number"}) == "");
     CHECK(lacks(refusal("time, 0, -1\n0, 1\n"), {"wrong.csv:2", "this line has 2 cells, and the first 3"}) == "");

@@ -210,6 +210,30 @@ TEST_CASE("one thread and two, plants in any order, and a plant moved by a perio
     CHECK(moved[1] == Approx(one[1]).epsilon(1e-3));
 }
 
+TEST_CASE("a leaf below the ground gets no light, which a warning tells once", "[ray-light]") {
+    std::vector<Diagnostic> warnings;
+    EnvironmentContext context;
+    context.plants = 1;
+    context.warnings = &warnings;
+    const auto absorbed = [&](double height, const std::string& lines) {
+        warnings.clear();
+        Environment environment =
+            environment_of("[light]\nprocess = \"ray-light\"\n" + lines + black + sun_above, context);
+        AskingPlants plants;
+        plants.add({{{0, height, 0}, {0}}, {{0, height, 0}, {0}}});
+        draw_square(plants.interpretation(0).geometry, 1, {0, height, 0}, {1, 0, 0}, {0, 0, -1}, 0.5);
+        for (const int step : {1, 2}) plants.exchange(environment, step);
+        return plants.parameters()[0];
+    };
+    CHECK(absorbed(0, "") == Approx(1).epsilon(0.01));
+    CHECK(warnings.empty());
+    CHECK(absorbed(-0.001, "") == 0);
+    REQUIRE(warnings.size() == 1);
+    CHECK(lacks(warnings[0].message, {"step 1", "1 of the organs", "below the ground", "y = 0 m", "'ground'"}) == "");
+    CHECK(absorbed(-0.001, "ground = -0.001\n") == Approx(1).epsilon(0.01));
+    CHECK(warnings.empty());
+}
+
 TEST_CASE("the standard error is that of repeated runs, and falls at least as the root of the paths", "[ray-light]") {
     const auto trial = [](const std::string& lines, int step) {
         Environment environment = ray_light(lines + sun_above);

@@ -126,10 +126,10 @@ TEST_CASE("a bad mesh is refused with its name and what is wrong", "[shape]") {
     CHECK_THAT(refusal_of(file("zero_index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n")), Contains("zero_index.obj"));
     CHECK_THAT(refusal_of(file("good.obj", tetrahedron)), Contains("accepted"));
     CHECK_THAT(refusal_of(folder.path() / "good.obj", "voxel = 1e-9"),
-               Contains("test.toml:3") && Contains("too small"));
-    CHECK_THAT(refusal_of(folder.path() / "good.obj", "voxel = 1e-6"), Contains("GB"));
+               Contains("test.toml:3") && Contains("at least 1.5e-05"));
+    CHECK_THAT(refusal_of(folder.path() / "good.obj", "voxel = 1.5e-5"), Contains("GB"));
     CHECK_THAT(refusal_of(folder.path() / "good.obj", "voxel = 10"), Contains("thinner"));
-    CHECK_THAT(refusal_of(folder.path() / "good.obj", "voxel = 0"), Contains("'voxel' must be greater than 0"));
+    CHECK_THAT(refusal_of(folder.path() / "good.obj", "voxel = 0"), Contains("'voxel' must be at least"));
 }
 
 namespace {
@@ -231,7 +231,7 @@ TEST_CASE("voxels and sizes of a mesh are those of the scene, which `scale` make
     const auto scaled = shape_of(mesh_table(file, 0.05) + "\nscale = 0.001\ntranslate = [0.25, 0, 0]\n");
     const auto whole = shape_of(mesh_table(metres, 0.05) + "\ntranslate = [0.25, 0, 0]\n");
     CHECK(difference(*scaled, *whole) < 1e-4);
-    CHECK_THAT(refusal_of(file, "voxel = 1e-7\nscale = 0.001"), Contains("GB") && Contains("2 m"));
+    CHECK_THAT(refusal_of(file, "voxel = 2e-5\nscale = 0.001"), Contains("GB") && Contains("2 m"));
 }
 
 TEST_CASE("a PLY with a point that is not a number, or cut short anywhere, is refused", "[shape]") {

@@ -186,7 +186,9 @@ TEST_CASE("a series with gaps, words, or days that do not rise names its line", 
     check_series("day,rain\n0,1\n1,wet\n", "espalier-gaps.csv:3: 'wet' is not a number");
     check_series("day,rain\n0,1\n1,2\n1,3\n", "espalier-gaps.csv:4: day 1 is not behind day 1");
     check_series("day,rain\n0,nan\n", "'nan' is not a number");
-    check_series("day,rain\n0,1\n1,9999\n", "espalier-gaps.csv:3: '9999' of 'rain' stands for a value that was not");
+    check_series("day,rain\n0,1\n1,9999\n",
+                 "espalier-gaps.csv:3: '9999' stands for a value that was not measured (if it was, write 9999.01): the "
+                 "series 'rain'");
     check_series(
         "\xEF\xBB\xBF"
         "day;rain\n0;0,5\n1;wet\n",
