@@ -50,7 +50,7 @@ void ProgressReport::operator()(const Progress& progress) {
     if (terminal_) {
         redraw(progress);
     } else {
-        print_tenth(progress);
+        print_line(progress);
     }
 }
 
@@ -66,11 +66,13 @@ void ProgressReport::redraw(const Progress& progress) {
                     last ? duration_text(progress.seconds) : duration_text(left * step_seconds_) + " left"));
 }
 
-void ProgressReport::print_tenth(const Progress& progress) {
+void ProgressReport::print_line(const Progress& progress) {
+    constexpr double longest_silence = 60;
     if (progress.steps == 0) return;
     const int tenths = static_cast<int>(10.0 * progress.step / progress.steps);
-    if (tenths == tenths_) return;
+    if (tenths == tenths_ && progress.seconds - printed_seconds_ < longest_silence) return;
     tenths_ = tenths;
+    printed_seconds_ = progress.seconds;
     say(fmt::format("step {}/{}  {} modules  {}\n", progress.step, progress.steps, grouped(progress.modules),
                     duration_text(progress.seconds)));
 }

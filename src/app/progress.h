@@ -1,4 +1,5 @@
-// How a run is told of while it lasts: one living line on a terminal, about ten plain lines in a pipe.
+// How a run is told of while it lasts: one living line on a terminal; in a pipe or a log about ten plain lines, or one
+// a minute.
 #pragma once
 
 #include "espalier/simulation/simulation.h"
@@ -16,12 +17,13 @@ public:
 
 private:
     void redraw(const Progress& progress);
-    void print_tenth(const Progress& progress);
+    void print_line(const Progress& progress);
 
     bool quiet_;
     bool terminal_;
     bool drawn_ = false;
     int tenths_ = 0;
+    double printed_seconds_ = 0;
     double last_seconds_ = 0;
     double step_seconds_ = 0;  ///< a moving average: later steps are longer, so the first ones should be forgotten
     double drawn_seconds_ = -1;

@@ -1,10 +1,13 @@
 #include "espalier/archive/recorded_run.h"
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
+#include "espalier/simulation/simulation.h"
 
+#include "app/child.h"
 #include "app/command.h"
 #include "app/progress.h"
 #include "base/json_text.h"
+#include "base/number.h"
 #include "base/text.h"
 #include "picture/charts/quantity.h"
 
@@ -14,6 +17,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -97,12 +102,27 @@ Json read_run(const fs::path& folder) {
     return run;
 }
 
+/// The step of the last whole row of timings.csv; nothing if there is none.
+std::optional<int> timed_steps(const fs::path& folder) {
+    if (!is_readable(folder / "timings.csv")) return std::nullopt;
+    const std::string text = read_text(folder / "timings.csv");
+    const std::size_t end = text.rfind('\n');
+    if (end == std::string::npos || end == 0) return std::nullopt;
+    const std::size_t begin = text.rfind('\n', end - 1) + 1;
+    return whole_text_as<int>(std::string_view(text).substr(begin, text.find(',', begin) - begin));
+}
+
 Json summary_of(const fs::path& folder, const Json& run, const RecordedTable& last) {
     Json summary;
     for (const char* key : {"exit", "version", "started", "seed", "threads", "steps", "steps_done", "time_unit"}) {
         summary[key] = run.value(key, Json());
     }
-    summary["exit"] = exit_of_run(folder);
+    const std::string exit = exit_of_run(folder);
+    summary["exit"] = exit;
+    // Its run.json was written when it began, or went on.
+    const bool has_not_ended = exit == "running" || exit == "killed";
+    if (const std::optional<int> steps = timed_steps(folder); has_not_ended && steps) summary["steps_done"] = *steps;
+    if (const std::optional<int> step = step_of_checkpoint(folder)) summary["checkpoint"] = *step;
     summary["scene"] = run.value("scene", Json::object()).value("name", "");
     summary["seconds"] = run.value("timings", Json::object()).value("total", 0.0);
     summary["memory"] = run.value("memory", Json());
@@ -180,6 +200,10 @@ void print_summary(const fs::path& folder, const Json& summary) {
     if (summary["peak_memory"].is_number() && summary["memory"].is_number()) {
         fmt::print("memory: at most {} MiB of {} MiB\n", summary["peak_memory"].get<std::uint64_t>() >> 20,
                    summary["memory"].get<std::uint64_t>() >> 20);
+    }
+    if (summary.contains("checkpoint")) {
+        fmt::print("checkpoint: of step {}, from which `espalier resume {}` goes on\n", text("checkpoint"),
+                   quoted(folder.string()));
     }
     fmt::print("frames: {} of plants", text("frames"));
     for (const auto& [name, count] : summary["fields"].items()) fmt::print(", {} of field {}", count.dump(), name);
