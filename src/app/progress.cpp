@@ -67,12 +67,7 @@ void ProgressReport::redraw(const Progress& progress) {
 }
 
 void ProgressReport::print_line(const Progress& progress) {
-    constexpr double longest_silence = 60;
-    if (progress.steps == 0) return;
-    const int tenths = static_cast<int>(10.0 * progress.step / progress.steps);
-    if (tenths == tenths_ && progress.seconds - printed_seconds_ < longest_silence) return;
-    tenths_ = tenths;
-    printed_seconds_ = progress.seconds;
+    if (!logged_.take(progress)) return;
     say(fmt::format("step {}/{}  {} modules  {}\n", progress.step, progress.steps, grouped(progress.modules),
                     duration_text(progress.seconds)));
 }

@@ -8,6 +8,25 @@
 
 namespace espalier::app {
 
+/// The steps of which a log tells: every tenth part of a run, and one a minute.
+class LoggedSteps {
+public:
+    /// Whether this step is one.
+    bool take(const Progress& progress) {
+        constexpr double longest_silence = 60;
+        if (progress.steps == 0) return false;
+        const int tenths = static_cast<int>(10.0 * progress.step / progress.steps);
+        if (tenths == tenths_ && progress.seconds - seconds_ < longest_silence) return false;
+        tenths_ = tenths;
+        seconds_ = progress.seconds;
+        return true;
+    }
+
+private:
+    int tenths_ = 0;
+    double seconds_ = 0;
+};
+
 class ProgressReport {
 public:
     explicit ProgressReport(bool quiet);
@@ -22,8 +41,7 @@ private:
     bool quiet_;
     bool terminal_;
     bool drawn_ = false;
-    int tenths_ = 0;
-    double printed_seconds_ = 0;
+    LoggedSteps logged_;
     double last_seconds_ = 0;
     double step_seconds_ = 0;  ///< a moving average: later steps are longer, so the first ones should be forgotten
     double drawn_seconds_ = -1;

@@ -259,7 +259,7 @@ std::string Sweep::state(const SweepRun& run) {
 void Sweep::remove_old_complaints() const {
     std::error_code ignored;
     for (const SweepRun& run : runs_) {
-        if (is_done(run) && !complaint(log(run)).empty()) fs::remove(log(run), ignored);
+        if (!complaint(log(run)).empty() && is_done(run)) fs::remove(log(run), ignored);
     }
 }
 
