@@ -201,9 +201,10 @@ TEST_CASE_METHOD(Continued, "info knows how far a killed run came, and from wher
     const json info = json::parse(run("info out --json").out);
     CHECK(info["exit"] == "killed");
     CHECK(info["steps_done"] == rows - 1);
+    CHECK(info["seconds"].is_null());  // nobody noted them
     CHECK(info["checkpoint"].get<int>() % 3 == 0);
     CHECK(info["checkpoint"] <= info["steps_done"]);
-    CHECK_THAT(run("info out").out, Contains("ended: killed; " + std::to_string(rows - 1) + " of 40 steps") &&
+    CHECK_THAT(run("info out").out, Contains("ended: killed; " + std::to_string(rows - 1) + " of 40 steps on ") &&
                                         Contains("checkpoint: of step ") && Contains("`espalier resume out`"));
 }
 

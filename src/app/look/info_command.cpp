@@ -119,12 +119,13 @@ Json summary_of(const fs::path& folder, const Json& run, const RecordedTable& la
     }
     const std::string exit = exit_of_run(folder);
     summary["exit"] = exit;
-    // Its run.json was written when it began, or went on.
-    const bool has_not_ended = exit == "running" || exit == "killed";
-    if (const std::optional<int> steps = timed_steps(folder); has_not_ended && steps) summary["steps_done"] = *steps;
     if (const std::optional<int> step = step_of_checkpoint(folder)) summary["checkpoint"] = *step;
     summary["scene"] = run.value("scene", Json::object()).value("name", "");
     summary["seconds"] = run.value("timings", Json::object()).value("total", 0.0);
+    if (exit == "running" || exit == "killed") {  // its run.json was written when it began, or went on
+        if (const std::optional<int> steps = timed_steps(folder)) summary["steps_done"] = *steps;
+        summary["seconds"] = nullptr;
+    }
     summary["memory"] = run.value("memory", Json());
     summary["peak_memory"] = run.value("peak_memory", Json());
     summary["frames"] = count_frames(folder / "plants", ".vtp");
@@ -195,8 +196,10 @@ void print_summary(const fs::path& folder, const Json& summary) {
         return value.is_string() ? value.get<std::string>() : value.dump();
     };
     fmt::print("{}: scene {}, seed {}, espalier {}\n", folder.string(), text("scene"), text("seed"), text("version"));
-    fmt::print("ended: {}; {} of {} steps in {} on {} threads, begun {}\n", text("exit"), text("steps_done"),
-               text("steps"), duration_text(summary["seconds"].get<double>()), text("threads"), text("started"));
+    const Json& seconds = summary["seconds"];
+    fmt::print("ended: {}; {} of {} steps{} on {} threads, begun {}\n", text("exit"), text("steps_done"), text("steps"),
+               seconds.is_number() ? " in " + duration_text(seconds.get<double>()) : "", text("threads"),
+               text("started"));
     if (summary["peak_memory"].is_number() && summary["memory"].is_number()) {
         fmt::print("memory: at most {} MiB of {} MiB\n", summary["peak_memory"].get<std::uint64_t>() >> 20,
                    summary["memory"].get<std::uint64_t>() >> 20);
