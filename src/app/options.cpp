@@ -145,7 +145,24 @@ KeyValues SetOptions::overrides() const {
     return split(sets_, "--set");
 }
 
-GrowthOptions::GrowthOptions(CLI::App& command) {
+MemoryOption::MemoryOption(CLI::App& command) {
+    command.add_option("--memory", memory_,
+                       "memory that the run may use, such as 4G; default: half of what the machine, the container or "
+                       "the job of a cluster has");
+}
+
+std::size_t MemoryOption::bytes() const {
+    return memory_.empty() ? 0 : size_in_bytes(memory_, "--memory");
+}
+
+TimeoutOption::TimeoutOption(CLI::App& command) {
+    command
+        .add_option("--timeout", seconds_,
+                    "seconds that a process may take to answer the queries of one step; 0: any time; default: 3600")
+        ->check(CLI::Range(0.0, 1e9));
+}
+
+GrowthOptions::GrowthOptions(CLI::App& command) : memory_(command) {
     command.add_option("--steps", steps_, "number of derivation steps; default: that of the scene or the model")
         ->check(CLI::Range(0, 1000000000));
     command
@@ -153,7 +170,6 @@ GrowthOptions::GrowthOptions(CLI::App& command) {
             "--seed", [this](const std::string& text) { read_seed(text); },
             "seed of all random numbers; the same seed gives the same result. random: draw a seed and print it")
         ->type_name("INT|random");
-    command.add_option("--memory", memory_, "memory that the run may use, such as 4G; default: half of the machine");
     command.add_flag("--trust", trust_, trust_help);
 }
 
@@ -170,16 +186,26 @@ void GrowthOptions::read_seed(const std::string& text) {
     throw CLI::ValidationError("--seed", "a whole number of at least 0, or random, is expected, not " + text);
 }
 
-std::size_t GrowthOptions::memory() const {
-    return memory_.empty() ? 0 : size_in_bytes(memory_, "--memory");
-}
-
 DiskOption::DiskOption(CLI::App& command) {
     command.add_option("--disk", disk_, "how much the run may write, such as 100G; default: 20G");
 }
 
 std::size_t DiskOption::bytes() const {
     return disk_.empty() ? 0 : size_in_bytes(disk_, "--disk");
+}
+
+IntervalOptions::IntervalOptions(CLI::App& command) {
+    command.add_option("--every", every_, "record a frame every N steps; default: as the scene says, or 1")
+        ->check(CLI::Range(1, 1000000000));
+    command
+        .add_option("--checkpoint-every", checkpoint_every_,
+                    "write a checkpoint every N steps for `espalier resume`; default: every minute, before steps that "
+                    "take long, and when interrupted")
+        ->check(CLI::Range(1, 1000000000));
+}
+
+void IntervalOptions::add_to(KeyValues& overrides) const {
+    if (every_ > 0) overrides.emplace_back("timeline.every", std::to_string(every_));
 }
 
 BlockOptions::BlockOptions(CLI::App& command) {

@@ -59,6 +59,28 @@ private:
     std::vector<std::string> sets_;
 };
 
+/// --memory.
+class MemoryOption {
+public:
+    explicit MemoryOption(CLI::App& command);
+
+    std::size_t bytes() const;  ///< 0: not given
+
+private:
+    std::string memory_;
+};
+
+/// --timeout.
+class TimeoutOption {
+public:
+    explicit TimeoutOption(CLI::App& command);
+
+    double seconds() const { return seconds_; }  ///< below 0: not given
+
+private:
+    double seconds_ = -1;
+};
+
 /// --steps, --seed, --memory and --trust.
 class GrowthOptions {
 public:
@@ -68,7 +90,7 @@ public:
     std::optional<std::uint64_t> seed() const {
         return seed_ < 0 ? std::nullopt : std::optional(static_cast<std::uint64_t>(seed_));
     }
-    std::size_t memory() const;  ///< bytes; 0: not given
+    std::size_t memory() const { return memory_.bytes(); }  ///< 0: not given
     bool trust() const { return trust_; }
 
 private:
@@ -76,7 +98,7 @@ private:
 
     int steps_ = -1;
     std::int64_t seed_ = -1;
-    std::string memory_;
+    MemoryOption memory_;
     bool trust_ = false;
 };
 
@@ -89,6 +111,19 @@ public:
 
 private:
     std::string disk_;
+};
+
+/// --every and --checkpoint-every.
+class IntervalOptions {
+public:
+    explicit IntervalOptions(CLI::App& command);
+
+    /// Adds what --every means for the scene.
+    void add_to(KeyValues& overrides) const;
+    int checkpoint_every() const { return checkpoint_every_; }  ///< 0: not given
+
+private:
+    int every_ = 0, checkpoint_every_ = 0;
 };
 
 /// --blocks and --resident.

@@ -50,7 +50,7 @@ void ProgressReport::operator()(const Progress& progress) {
     if (terminal_) {
         redraw(progress);
     } else {
-        print_tenth(progress);
+        print_line(progress);
     }
 }
 
@@ -66,11 +66,8 @@ void ProgressReport::redraw(const Progress& progress) {
                     last ? duration_text(progress.seconds) : duration_text(left * step_seconds_) + " left"));
 }
 
-void ProgressReport::print_tenth(const Progress& progress) {
-    if (progress.steps == 0) return;
-    const int tenths = static_cast<int>(10.0 * progress.step / progress.steps);
-    if (tenths == tenths_) return;
-    tenths_ = tenths;
+void ProgressReport::print_line(const Progress& progress) {
+    if (!logged_.take(progress)) return;
     say(fmt::format("step {}/{}  {} modules  {}\n", progress.step, progress.steps, grouped(progress.modules),
                     duration_text(progress.seconds)));
 }

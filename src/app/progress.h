@@ -1,4 +1,5 @@
-// How a run is told of while it lasts: one living line on a terminal, about ten plain lines in a pipe.
+// How a run is told of while it lasts: one living line on a terminal; in a pipe or a log about ten plain lines, or one
+// a minute.
 #pragma once
 
 #include "espalier/simulation/simulation.h"
@@ -6,6 +7,25 @@
 #include <chrono>
 
 namespace espalier::app {
+
+/// The steps of which a log tells: every tenth part of a run, and one a minute.
+class LoggedSteps {
+public:
+    /// Whether this step is one.
+    bool take(const Progress& progress) {
+        constexpr double longest_silence = 60;
+        if (progress.steps == 0) return false;
+        const int tenths = static_cast<int>(10.0 * progress.step / progress.steps);
+        if (tenths == tenths_ && progress.seconds - seconds_ < longest_silence) return false;
+        tenths_ = tenths;
+        seconds_ = progress.seconds;
+        return true;
+    }
+
+private:
+    int tenths_ = 0;
+    double seconds_ = 0;
+};
 
 class ProgressReport {
 public:
@@ -16,12 +36,12 @@ public:
 
 private:
     void redraw(const Progress& progress);
-    void print_tenth(const Progress& progress);
+    void print_line(const Progress& progress);
 
     bool quiet_;
     bool terminal_;
     bool drawn_ = false;
-    int tenths_ = 0;
+    LoggedSteps logged_;
     double last_seconds_ = 0;
     double step_seconds_ = 0;  ///< a moving average: later steps are longer, so the first ones should be forgotten
     double drawn_seconds_ = -1;

@@ -1,5 +1,7 @@
 #include "run_command.h"
 
+#include "espalier/base/file.h"
+
 #include "base/json_text.h"
 #include "child.h"
 #include "command.h"
@@ -10,6 +12,7 @@
 #include "setting_values.h"
 #include "simulation/run/allowed_memory.h"
 #include "simulation/run/disk_budget.h"
+#include "simulation/run/run_standing.h"
 #include "trust.h"
 
 #include <fmt/chrono.h>
@@ -63,7 +66,8 @@ std::string way_on(const fs::path& output) {
     if (fs::exists(checkpoint_of(output), ignored)) {
         return fmt::format("the run has a checkpoint: `espalier resume {}` continues it", quoted(output.string()));
     }
-    return "the run has no checkpoint, because it was interrupted within its first long step";
+    return "the run has no checkpoint, because it was interrupted within its first long step; the same command with "
+           "--continue begins it again";
 }
 
 void print_result(const RunArguments& arguments, const Scene& scene, const fs::path& output, const RunResult& result) {
@@ -138,9 +142,9 @@ Scene scene_of(const RunArguments& arguments) {
     Scene scene = read(arguments);
     std::vector<NamedProgram> programs = simulation::programs_of(scene);
     require_trust(programs, arguments.trust);
-    // What a run is resumed with comes from its folder, too.
+    // What a run is resumed with comes from its folder, too; but not its words, if the user gave them once more.
     for (NamedProgram& program : programs) program.folder = resolved(arguments.output);
-    if (arguments.resume) require_trust(programs, arguments.trust);
+    if (arguments.resume) require_trust(programs, arguments.trust || arguments.goes_on);
     return scene;
 }
 
@@ -200,6 +204,17 @@ bool InterruptibleRun::interrupted() {
     return interrupt.is_asked();
 }
 
+namespace {
+
+constexpr double default_timeout = 3600;
+
+AskedOptions asked_of(const RunArguments& arguments) {
+    return {arguments.memory, arguments.disk, arguments.blocks, arguments.blocks > 0 ? arguments.resident : 0,
+            arguments.timeout};
+}
+
+}  // namespace
+
 RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog& inputs, const fs::path& output,
                Recorder* recorder, Ranks* ranks) {
     platform::give_back_large_blocks();
@@ -213,14 +228,15 @@ RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog&
     options.overwrite = arguments.overwrite;
     options.checkpoint_every = arguments.checkpoint_every;
     options.resume = arguments.resume;
-    options.memory = allowed_memory(arguments.memory, arguments.model.file);
+    options.memory = allowed_memory(arguments.memory, arguments.model.file, ranks_on_node(ranks));
     options.disk = arguments.disk;
     options.blocks = arguments.blocks;
     options.resident = arguments.resident;
     options.arguments = words_of(arguments);
+    options.asked = asked_of(arguments);
     options.inputs = &inputs;
     options.ranks = ranks;
-    options.patience = arguments.timeout;
+    options.patience = arguments.timeout < 0 ? default_timeout : arguments.timeout;
     options.expired = [json = arguments.json](const std::string& why) { end_without_answer(why, json); };
     if (is_first(ranks)) {
         options.warn = [&arguments](const auto& warnings) { arguments.warn(warnings, arguments.quiet); };
@@ -233,7 +249,7 @@ RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog&
 
 namespace {
 
-int run_here(const RunArguments& arguments, Ranks* ranks) {
+int grow_here(const RunArguments& arguments, Ranks* ranks) {
     const InterruptibleRun interruptible(arguments.quiet);
     const ReadLog inputs;
     Scene scene;
@@ -250,6 +266,55 @@ int run_here(const RunArguments& arguments, Ranks* ranks) {
     if (is_first(ranks)) print_result(arguments, scene, output, result);
     if (ranks) ranks->agree();
     return result.interrupted ? exit_code::interrupted : exit_code::done;
+}
+
+void say_unless_quiet(const RunArguments& arguments, const std::string& text) {
+    if (!arguments.quiet) fmt::print(stderr, "{}: {}\n", arguments.output.string(), text);
+}
+
+void say_how_it_goes_on(const RunArguments& arguments, const RunStanding& standing) {
+    if (is_locked(arguments.output)) return;  // by another process, and what is begun now will be refused
+    if (standing.kind == RunStanding::Kind::resumable) {
+        const std::optional<int> step = step_of_checkpoint(arguments.output);
+        return say_unless_quiet(arguments, step ? fmt::format("continued from the checkpoint of step {}", *step)
+                                                : "continued from its checkpoint");
+    }
+    if (standing.kind == RunStanding::Kind::begun) {
+        return say_unless_quiet(arguments, standing.why.empty()
+                                               ? "begun again: the run here ended before its first checkpoint"
+                                               : fmt::format("begun again: {}", standing.why));
+    }
+    if (standing.kind == RunStanding::Kind::other) {
+        say_unless_quiet(arguments, fmt::format("the run here is replaced: {}", standing.why));
+    }
+}
+
+// What the first rank finds in the folder holds for all: a moment later it may look otherwise.
+int go_on_here(RunArguments arguments, Ranks* ranks) {
+    using Kind = RunStanding::Kind;
+    RunStanding standing;
+    together(ranks, [&] {
+        if (!is_first(ranks)) return;
+        standing = simulation::standing_of(arguments.output, words_of(arguments));
+        if (standing.kind == Kind::other && !arguments.overwrite) {
+            throw UserError(
+                fmt::format("{} holds another run: {}. Choose another folder with --output, or replace it "
+                            "with --overwrite",
+                            arguments.output.string(), standing.why));
+        }
+    });
+    const auto kind = static_cast<Kind>(from_first(ranks, {static_cast<char>(standing.kind)}).front());
+    if (kind == Kind::complete) {
+        return tell_complete(standing.command, arguments.output, arguments.quiet, arguments.json);
+    }
+    say_how_it_goes_on(arguments, standing);
+    arguments.resume = kind == Kind::resumable;
+    arguments.overwrite = !arguments.resume;
+    return grow_here(arguments, ranks);
+}
+
+int run_here(const RunArguments& arguments, Ranks* ranks) {
+    return arguments.goes_on ? go_on_here(arguments, ranks) : grow_here(arguments, ranks);
 }
 
 // The first rank tells of the run and of what went wrong anywhere: the others keep silent.
@@ -272,6 +337,26 @@ Ranks* launched_ranks() {
 }
 
 }  // namespace
+
+int tell_complete(const RecordedCommand& command, const fs::path& folder, bool quiet, bool json) {
+    Ranks* const ranks = launched_ranks();
+    together(ranks, [&] {
+        if (!is_first(ranks)) return;
+        simulation::mark_complete(folder);
+        if (json) {
+            const nlohmann::ordered_json result = {{"exit", "done"},
+                                                   {"output", folder.string()},
+                                                   {"steps", command.steps},
+                                                   {"steps_done", command.steps_done}};
+            fmt::print("{}\n", json_text(result));
+        } else if (!quiet) {
+            fmt::print("{}: complete, {} of {} steps; there is nothing left to do\n", folder.string(),
+                       command.steps_done, command.steps);
+        }
+    });
+    if (ranks) ranks->agree();
+    return exit_code::done;
+}
 
 int run_command(const RunArguments& arguments) {
     Ranks* const ranks = launched_ranks();
@@ -301,8 +386,10 @@ public:
                  ModelOptions::Files::reading_and_drawing),
           sets_(app()),
           growth_(app()),
+          intervals_(app()),
           disk_(app()),
-          blocks_(app()) {
+          blocks_(app()),
+          timeout_(app()) {
         app()
             .add_option("--threads", arguments_.threads,
                         "number of threads; default: all cores. The result does not depend on it")
@@ -310,21 +397,15 @@ public:
         app().add_option("--settings", settings_,
                          "a file with settings of the model, or of the first plant of a scene, as `espalier tree` "
                          "saves them: crown-width = 6");
-        app().add_option("--output", arguments_.output, "output folder; default: output/<scene>-<time>");
-        app().add_flag("--overwrite", arguments_.overwrite, "replace the timeline in the output folder");
+        CLI::Option* const output =
+            app().add_option("--output", arguments_.output, "output folder; default: output/<scene>-<time>");
+        app().add_flag("--overwrite", arguments_.overwrite,
+                       "replace the timeline in the output folder; with --continue: only that of another run");
         app()
-            .add_option("--every", every_, "record a frame every N steps; default: as the scene says, or 1")
-            ->check(CLI::Range(1, 1000000000));
-        app()
-            .add_option(
-                "--checkpoint-every", arguments_.checkpoint_every,
-                "write a checkpoint every N steps for `espalier resume`; default: before steps that take long, and "
-                "when interrupted")
-            ->check(CLI::Range(1, 1000000000));
-        app()
-            .add_option("--timeout", arguments_.timeout,
-                        "seconds that a process may take to answer the queries of one step; 0: any time; default: 3600")
-            ->check(CLI::Range(0.0, 1e9));
+            .add_flag("--continue", arguments_.goes_on,
+                      "do what is left to do in the output folder: nothing if the run there is complete, else go on "
+                      "from its checkpoint, or begin if it has none")
+            ->needs(output);
         app().add_flag("--resume", arguments_.resume)->group("");  // what `resume` starts
         app().add_flag(child_flag, is_child_)->group("");
         app().add_flag("--quiet", arguments_.quiet, quiet_growth_help);
@@ -336,6 +417,7 @@ public:
   espalier run models/organs/shoot.l --view models/organs/shoot.v
   espalier run environments/tree.toml --settings environments/presets/shrub.toml
   espalier run models/language/shoot          a folder; its file 'specifications' names the files
+  espalier run environments/two-trees.toml --output output/trees --continue      the same line again after any end
 Ctrl-C ends the run after the current step, or within half a second of it, and keeps all recorded frames. A second
 Ctrl-C stops at once.)");
     }
@@ -343,7 +425,8 @@ Ctrl-C stops at once.)");
     int run() override {
         arguments_.model = model_.arguments();
         arguments_.overrides = sets_.overrides();
-        if (every_ > 0) arguments_.overrides.emplace_back("timeline.every", std::to_string(every_));
+        intervals_.add_to(arguments_.overrides);
+        arguments_.checkpoint_every = intervals_.checkpoint_every();
         arguments_.steps = growth_.steps();
         arguments_.seed = growth_.seed();
         arguments_.memory = growth_.memory();
@@ -351,6 +434,7 @@ Ctrl-C stops at once.)");
         arguments_.disk = disk_.bytes();
         arguments_.blocks = blocks_.blocks();
         arguments_.resident = blocks_.resident();
+        arguments_.timeout = timeout_.seconds();
         arguments_.json = wants_json();
         if (!settings_.empty()) take_settings(settings_, arguments_);
         if (is_child_) end_with_parent();
@@ -361,11 +445,12 @@ private:
     ModelOptions model_;
     SetOptions sets_;
     GrowthOptions growth_;
+    IntervalOptions intervals_;
     DiskOption disk_;
     BlockOptions blocks_;
+    TimeoutOption timeout_;
     RunArguments arguments_;
     fs::path settings_;
-    int every_ = 0;
     bool is_child_ = false;
 };
 

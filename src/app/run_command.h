@@ -6,7 +6,7 @@
 
 #include "base/platform.h"
 #include "model_arguments.h"
-#include "simulation/run/named_programs.h"
+#include "simulation/run/recorded_command.h"
 
 #include <cstdint>
 #include <exception>
@@ -26,12 +26,13 @@ struct RunArguments {
     int threads = 0;  ///< 0: as many as the machine has
     std::filesystem::path output;
     bool overwrite = false;
+    bool goes_on = false;  ///< does what is left to do in `output`
     int checkpoint_every = 0;
     bool resume = false;  ///< goes on from the checkpoint in `output`
     std::size_t memory = 0;
     std::size_t disk = 0;  ///< bytes; 0: the default
     std::size_t blocks = 0, resident = 1;
-    double timeout = 3600;  ///< seconds that a process may take to answer in one step; 0: any time
+    double timeout = -1;  ///< seconds that a process may take to answer in one step; 0: any time; below 0: the default
     bool quiet = false;
     bool json = false;
     std::function<void(const std::vector<Diagnostic>&, bool quiet)> warn = print_warnings;
@@ -82,6 +83,9 @@ private:
 /// what was read. `recorder`, which may be null, sees every frame. `ranks`: the processes that do so together, or null.
 RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog& inputs,
                const std::filesystem::path& output, Recorder* recorder = nullptr, Ranks* ranks = nullptr);
+
+/// Says that the run in a folder is complete, once for all ranks. Returns the exit code.
+int tell_complete(const RecordedCommand& command, const std::filesystem::path& folder, bool quiet, bool json);
 
 /// Runs it as `espalier run` does. Returns the exit code; throws UserError and RunError.
 int run_command(const RunArguments& arguments);

@@ -275,13 +275,7 @@ void prefer_huge_pages([[maybe_unused]] void* at, [[maybe_unused]] std::size_t b
 }
 
 std::size_t machine_memory() {
-    std::size_t bytes =
-        static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(::sysconf(_SC_PAGE_SIZE));
-    // A container's limit (control groups, version 2); "max" is no number and leaves the machine's.
-    std::ifstream limit("/sys/fs/cgroup/memory.max");
-    std::size_t allowed = 0;
-    if (limit >> allowed) bytes = std::min(bytes, allowed);
-    return bytes;
+    return static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(::sysconf(_SC_PAGE_SIZE));
 }
 
 std::size_t peak_memory() {

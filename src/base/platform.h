@@ -82,7 +82,7 @@ bool is_locked(const std::filesystem::path& file);
 /// Advice: fresh memory in large pages, which are touched first in a quarter of the time.
 void prefer_huge_pages(void* at, std::size_t bytes);
 
-/// Memory of the machine, or what its container may use of it, in bytes.
+/// Memory of the machine, in bytes; usable_memory() knows how much of it this process may use.
 std::size_t machine_memory();
 
 /// The most memory this process ever held in the machine at once, in bytes.

@@ -224,6 +224,26 @@ TEST_CASE_METHOD(Own, "a run of others cannot start a program by what its run.js
     const Outcome outcome = run("rerun out");
     CHECK(outcome.code == 1);
     CHECK_THAT(outcome.err, Contains("say --trust"));
+    for (const char* consent : {"--trust", "--trust=true"}) {
+        json forged = record;
+        forged["command"]["arguments"].push_back(consent);
+        std::ofstream(path() / "out/run.json") << forged;
+        for (const char* command : {"resume out", "rerun out"}) {
+            CHECK_THAT(run(command).err, Contains("consent to start programs is no setting of a run"));
+        }
+    }
+}
+
+TEST_CASE_METHOD(Own, "a run whose scene may start programs goes on without being asked once more", "[app]") {
+    REQUIRE(run_on_terminal(quiet_bush, "y\n").code == 0);
+    const std::string again =
+        "run external/bush.l --environment external/bush.e --steps 4 --quiet --output new --continue ";
+    REQUIRE(run(again + "--disk 1K --checkpoint-every 1").code == 2);
+    REQUIRE(fs::exists(path() / "new/checkpoint"));
+    CHECK(run("resume new --disk 1G").code == 1);  // its run.json could be anybody's
+    const Outcome outcome = run(again);
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
 }
 
 TEST_CASE_METHOD(Own, "the runs of a sweep share the consent to its first", "[app]") {

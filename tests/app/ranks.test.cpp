@@ -116,19 +116,35 @@ TEST_CASE_METHOD(Launched, "a disk that is full for one rank ends all; what was 
     CHECK(files("full") == files("alone"));
 }
 
-TEST_CASE_METHOD(Launched, "the script for Slurm begins a run, and goes on with it", "[app][ranks]") {
+// Without Slurm, the script takes mpiexec, which hands the signal on as srun does.
+TEST_CASE_METHOD(Launched, "the script for Slurm begins a run, goes on with it, and knows when it is complete",
+                 "[app][ranks]") {
     if (!has_ranks()) return;
-    REQUIRE(run("run stand.toml --quiet --output alone").code == 0);
-    const std::string script =
-        "cd '" + path().string() +
-        "' && PATH=\"$(dirname '" ESPALIER_PROGRAM
+    write("patient.l", models::patient);
+    write("two.toml", "[[plant]]\nmodel = \"patient.l\"\ngrid = { columns = 2, rows = 1, spacing = 1 }\n");
+    REQUIRE(run("run two.toml --quiet --output alone --steps 200 --every 50").code == 0);
+    fs::create_directory(path() / "bin");
+    fs::permissions(write("bin/srun", "#!/bin/sh\nexit 1\n"), fs::perms::owner_all);
+    const std::string job =
+        "PATH=\"$PWD/bin:$(dirname '" ESPALIER_PROGRAM
         "'):$PATH\" SLURM_JOB_NUM_NODES=2 "
         "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
-        "bash '" ESPALIER_SOURCE_DIR "/docs/run.slurm' stand.toml jobs --quiet >.out 2>.err";
-    const int code = code_of(std::system(script.c_str()));
+        "bash '" ESPALIER_SOURCE_DIR "/docs/run.slurm' two.toml jobs --steps 200 --every 50 --checkpoint-every 100";
+    const auto in_place = [&](const std::string& commands) {
+        return code_of(std::system(("cd '" + path().string() + "' && { " + commands + "; } >.out 2>.err").c_str()));
+    };
+    const int stopped =
+        in_place(job +
+                 " & job=$!; while [ ! -e jobs/timings.csv ] && kill -0 $job; do sleep 0.02; done; sleep 0.2; "
+                 "kill -USR1 $job; wait $job");
     INFO(text_of(path() / ".err"));
-    REQUIRE(code == 0);
+    CHECK(stopped == 130);
+    CHECK(fs::exists(path() / "jobs/checkpoint"));
+    CHECK(in_place(job) == 0);
+    CHECK_THAT(text_of(path() / ".err"), Contains("jobs: continued from the checkpoint of step "));
     CHECK(files("jobs") == files("alone"));
+    CHECK(in_place(job) == 0);
+    CHECK_THAT(text_of(path() / ".out"), Contains("jobs: complete, 200 of 200 steps"));
 }
 
 TEST_CASE_METHOD(Launched, "all ranks end with the exit code of a mistake, told once", "[app][ranks]") {
@@ -141,23 +157,33 @@ TEST_CASE_METHOD(Launched, "all ranks end with the exit code of a mistake, told 
     CHECK_THAT(many.err, Contains("there are 5 ranks but only 4 blocks with plants"));
     CHECK(many.err.find("there are 5 ranks") == many.err.rfind("there are 5 ranks"));
     REQUIRE(launch(2, "run stand.toml --quiet --output whole").code == 0);
-    const Outcome whole = launch(2, "resume whole");
-    CHECK(whole.code == 1);
-    CHECK(whole.err.find("there is nothing to continue") != std::string::npos);
-    CHECK(whole.err.find("there is nothing to continue") == whole.err.rfind("there is nothing to continue"));
+    CHECK(launch(2, "run stand.toml --output whole --continue --steps 3").code == 1);
+    for (const std::string command : {"resume whole", "run stand.toml --output whole --continue"}) {
+        CAPTURE(command);
+        const Outcome whole = launch(2, command);
+        CHECK(whole.code == 0);
+        CHECK(whole.out.find("there is nothing left to do") != std::string::npos);
+        CHECK(whole.out.find("there is nothing left to do") == whole.out.rfind("there is nothing left to do"));
+    }
 }
 
 // As a launcher of another MPI would: its variables are set, and the library that was built with knows none of them.
 TEST_CASE_METHOD(Launched, "the launcher of another MPI is refused, and both are named", "[app][ranks]") {
     if (!has_ranks()) return;
-    for (const std::string variable : {"PMI_SIZE=3", "PMIX_RANK=2"}) {
+    for (const std::string variable : {"PMI_SIZE=3", "PMIX_RANK=2", "SLURM_STEP_NUM_TASKS=3"}) {
         const Outcome outcome = run("run stand.toml --quiet --output single", variable);
         CHECK(outcome.code == 1);
         CHECK_THAT(outcome.err, Contains("3 processes or more (" + variable + ")"));
-        CHECK_THAT(outcome.err, Contains("MPI") && Contains("sees one"));
+        CHECK_THAT(outcome.err, Contains("MPI") && Contains("sees one") && Contains("mpiexec -n 3 espalier"));
+        CHECK_THAT(outcome.err, Contains("srun --mpi=pm"));
+        // Tasks of plain srun may each grow a run of their own.
+        CHECK((outcome.err.find("env -u SLURM_STEP_NUM_TASKS") != std::string::npos) == variable.starts_with("SLURM"));
         CHECK_FALSE(fs::exists(path() / "single"));
     }
     CHECK(run("run stand.toml --quiet --steps 2 --output single", "PMI_SIZE=1 PMIX_RANK=0").code == 0);
+    CHECK(run("run stand.toml --quiet --steps 2 --output one", "SLURM_STEP_NUM_TASKS=1").code == 0);
+    // A launcher that is itself a step of Slurm, and starts one process.
+    CHECK(run("run stand.toml --quiet --steps 2 --output two", "SLURM_STEP_NUM_TASKS=2 PMI_SIZE=1").code == 0);
 }
 
 TEST_CASE_METHOD(Launched, "SIGUSR1 to mpiexec ends all ranks after their step, with a checkpoint", "[app][ranks]") {

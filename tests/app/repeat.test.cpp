@@ -1,6 +1,7 @@
 // Runs that are done again, and runs that are varied.
 #include "catch.h"
 #include "program.h"
+#include "recorded_files.h"
 
 #include <nlohmann/json.hpp>
 
@@ -195,26 +196,142 @@ TEST_CASE_METHOD(Workplace, "the commands a sweep lists are those it would run",
     CHECK(count_lines(list.out) == 2);
     CHECK_THAT(list.out, Contains("--define D=1.2") && Contains("'a b/D=1.2'"));
     write("commands", list.out);
-    REQUIRE(std::system(("cd '" + path().string() + "' && sh commands").c_str()) == 0);
+    const auto do_all = [&] {
+        return std::system(("cd '" + path().string() + "' && sh commands >.out 2>.err").c_str());
+    };
+    REQUIRE(do_all() == 0);
+    CHECK_THAT(text_of(path() / ".err"), Contains("step 4/4"));  // a log tells how far a run is
     CHECK(run(command + " --list").out == "");
+    // A task that starts a second time has nothing to do.
+    const auto then = fs::last_write_time(path() / "a b/D=1.2/plants.pvd");
+    REQUIRE(do_all() == 0);
+    CHECK_THAT(text_of(path() / ".out"), Contains("complete, 4 of 4 steps"));
+    CHECK(fs::last_write_time(path() / "a b/D=1.2/plants.pvd") == then);
+    CHECK_THAT(run("sweep shrub.l --vary D=1.3 --quiet --list").out, Contains(" --quiet"));
     CHECK(run(command + " --quiet").code == 0);
     CHECK(count_lines(text_of(path() / "a b" / "sweep.csv")) == 3);
 }
 
-TEST_CASE_METHOD(Workplace, "the script for Slurm runs the line of its task, and says if there is none", "[app]") {
+namespace {
+
+/// Tasks of an array as Slurm starts them.
+class Tasks : public Workplace {
+public:
+    Tasks() {
+        write("shrub.l", shrub);
+        write("some.commands", run("sweep shrub.l --vary D=1.1,1.2,1.3 --output s --list").out);
+    }
+    std::string line_of(const std::string& task, const std::string& arguments) const {
+        return "cd '" + path().string() + "' && SLURM_ARRAY_TASK_ID=" + task + " SLURM_ARRAY_TASK_MAX=2 exec bash '" +
+               ESPALIER_SOURCE_DIR + "/docs/sweep.slurm' " + arguments + " >.out 2>.err";
+    }
+    int task(const std::string& number, const std::string& arguments = "some.commands") const {
+        return code_of(std::system(line_of(number, arguments).c_str()));
+    }
+    std::string told() const { return text_of(path() / ".err"); }
+};
+
+}  // namespace
+
+TEST_CASE_METHOD(Tasks, "the script for Slurm runs the line of its task, and says if there is none", "[app]") {
+    CHECK(task("1") == 0);
+    CHECK_THAT(told(), !Contains("array"));
+    CHECK(fs::exists(path() / "s/D=1.1/complete"));
+    CHECK_FALSE(fs::exists(path() / "s/D=1.2"));
+    // The last task of an array that is too short, and the next array.
+    CHECK(task("2") == 0);
+    CHECK_THAT(told(), Contains("this array ends with line 2 of 3") && Contains("docs/sweep.slurm some.commands 2"));
+    CHECK(task("1", "some.commands 2") == 0);
+    CHECK(fs::exists(path() / "s/D=1.3/complete"));
+    CHECK(task("4") == 1);
+    CHECK_THAT(told(), Contains("task 4: the file some.commands has only 3 lines"));
+    CHECK(task("0") == 1);
+    CHECK_THAT(told(), Contains("numbered from 1"));
+    CHECK(task("1", "") == 1);
+    CHECK_THAT(told(), Contains("usage: sbatch --array=1-N docs/sweep.slurm FILE"));
+}
+
+// Slurm sends the signal to the script alone; when that ends, it kills what is left.
+TEST_CASE_METHOD(Tasks, "a task that is told that its time is up leaves a checkpoint, and the next one goes on",
+                 "[app]") {
+    write("patient.l", models::patient);
+    write("long.commands",
+          run("sweep patient.l --vary simulation.seed=1 --steps 3000 --every 3000 --output s --list").out);
+    REQUIRE(run("run patient.l --set simulation.seed=1 --steps 3000 --every 3000 --quiet --output whole").code == 0);
+    const std::string start = "( " + line_of("1", "long.commands") + " ) & task=$!; cd '" + path().string() +
+                              "'; while [ ! -e s/seed=1/timings.csv ] && kill -0 $task; do sleep 0.01; done; ";
+    CHECK(code_of(std::system((start + "kill -TERM $task; wait $task").c_str())) == 130);
+    CHECK(fs::exists(path() / "s/seed=1/checkpoint"));
+    CHECK(task("1", "long.commands") == 0);
+    CHECK_THAT(told(), Contains("s/seed=1: continued from the checkpoint of step "));
+    CHECK((recorded_files(path() / "s/seed=1") == recorded_files(path() / "whole")));
+}
+
+TEST_CASE_METHOD(Workplace, "a sweep goes on with runs that were interrupted, from their checkpoints", "[app]") {
     write("shrub.l", shrub);
-    write("commands", run("sweep shrub.l --vary D=1.1,1.2 --output s --list").out);
-    const auto task = [&](int number) {
-        const std::string script = std::string("bash '") + ESPALIER_SOURCE_DIR + "/docs/sweep.slurm'";
-        return code_of(std::system(("cd '" + path().string() + "' && SLURM_ARRAY_TASK_ID=" + std::to_string(number) +
-                                    " " + script + " >.out 2>.err")
-                                       .c_str()));
+    const std::string sweep = "sweep shrub.l --vary D=1.1,1.2 --every 2 --checkpoint-every 1 --quiet --output ";
+    REQUIRE(run(sweep + "whole").code == 0);
+    CHECK(json::parse(text_of(path() / "whole/D=1.1/run.json"))["checkpoint_every"] == 1);
+    CHECK_FALSE(fs::exists(path() / "whole/D=1.1/plants/0001.vtp"));
+    CHECK(fs::exists(path() / "whole/D=1.1/plants/0002.vtp"));
+    REQUIRE(run(sweep + "s --disk 1K").code == 2);
+    const std::string first_row = text_of(path() / "s/D=1.1/timings.csv").substr(0, 90);
+    CHECK(fs::exists(path() / "s/D=1.1/checkpoint"));
+    CHECK_THAT(text_of(path() / "s/D=1.1.log"), Contains("--disk allows"));
+    REQUIRE(run(sweep + "s").code == 0);
+    CHECK(text_of(path() / "s/D=1.1/timings.csv").substr(0, 90) == first_row);  // it did not begin again
+    for (const std::string folder : {"D=1.1", "D=1.2"}) {
+        CHECK((recorded_files(path() / "s" / folder) == recorded_files(path() / "whole" / folder)));
+        CHECK_FALSE(fs::exists(path() / "s" / (folder + ".log")));
+    }
+}
+
+TEST_CASE_METHOD(Workplace, "the table of a sweep is made of what is there, and what is missing is named", "[app]") {
+    write("shrub.l", shrub);
+    const std::string sweep = "sweep shrub.l --vary D=1.1,1.2,1.3,1.4 --checkpoint-every 1 --output s ";
+    REQUIRE(run("sweep shrub.l --vary D=1.1,1.2 --quiet --output s").code == 0);
+    REQUIRE(run("sweep shrub.l --vary D=1.3 --quiet --output s --disk 1K --checkpoint-every 1").code == 2);
+    fs::remove(path() / "s/sweep.csv");
+    CHECK_THAT(run("sweep shrub.l --vary D=1.1 --output none --table").err, Contains("1 of 1 runs are missing"));
+    CHECK_FALSE(fs::exists(path() / "none"));
+    const Outcome part = run(sweep + "--table");
+    CHECK(part.code == 2);
+    CHECK(count_lines(text_of(path() / "s/sweep.csv")) == 3);
+    CHECK_THAT(part.err, Contains("missing: D=1.3: failed: ") && Contains(", with a checkpoint of step ") &&
+                             Contains("missing: D=1.4: not begun\n2 of 4 runs are missing"));
+    CHECK_FALSE(fs::exists(path() / "s/D=1.4"));
+    // What becomes complete elsewhere, by a line of --list, takes back what it said when it failed.
+    CHECK(fs::exists(path() / "s/D=1.3.log"));
+    for (const std::string value : {"1.3", "1.4"}) {
+        REQUIRE(run("run shrub.l --define D=" + value + " --output s/D=" + value + " --quiet --continue").code == 0);
+    }
+    const Outcome all = run(sweep + "--table");
+    CHECK(all.code == 0);
+    CHECK(all.err == "");
+    CHECK(count_lines(text_of(path() / "s/sweep.csv")) == 5);
+    CHECK_FALSE(fs::exists(path() / "s/D=1.3.log"));
+    CHECK(run(sweep + "--table --list").code == 1);
+    write("shrub.l", std::string(shrub) + "\n");
+    CHECK_THAT(run(sweep + "--table").err, Contains("missing: D=1.1: another run is in s/D=1.1: ") &&
+                                               Contains("shrub.l has changed since it began"));
+}
+
+TEST_CASE_METHOD(Workplace, "runs of a sweep at the same time share the memory", "[app]") {
+    write("shrub.l", shrub);
+    const auto memory_of = [&](const std::string& folder) {
+        return json::parse(text_of(path() / folder / "run.json"))["memory"].get<std::size_t>();
     };
-    CHECK(task(2) == 0);
-    CHECK(fs::exists(path() / "s" / "D=1.2" / "plants.pvd"));
-    CHECK_FALSE(fs::exists(path() / "s" / "D=1.1"));
-    CHECK(task(3) == 1);
-    CHECK_THAT(text_of(path() / ".err"), Contains("task 3: the file commands has only 2 lines"));
+    REQUIRE(run("run shrub.l --quiet --output alone").code == 0);
+    REQUIRE(run("sweep shrub.l --vary D=1.1,1.2,1.3 --jobs 3 --quiet --output s").code == 0);
+    REQUIRE(run("sweep shrub.l --vary D=1.1,1.2,1.3 --jobs 1 --quiet --output one").code == 0);
+    REQUIRE(run("sweep shrub.l --vary D=1.1,1.2,1.3 --jobs 3 --memory 300M --quiet --output given").code == 0);
+    CHECK(memory_of("s/D=1.1") == memory_of("alone") / 2);  // a third of three quarters, and half of all
+    CHECK(memory_of("one/D=1.1") == memory_of("alone"));
+    CHECK(memory_of("given/D=1.1") == 300 << 20);
+    // A job may have one core of many: there is one run at a time, whatever the machine has.
+    const std::string first_core = "taskset --cpu-list $(taskset --pid --cpu-list $$ | sed 's/.*: //; s/[-,].*//')";
+    REQUIRE(run("sweep shrub.l --vary D=1.1,1.2,1.3 --quiet --output core", first_core).code == 0);
+    CHECK(memory_of("core/D=1.1") == memory_of("alone"));
 }
 
 TEST_CASE_METHOD(Workplace, "a run that fails does not keep the others of its sweep", "[app]") {

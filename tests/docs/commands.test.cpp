@@ -21,10 +21,6 @@ const NotRun* exception_for(const fs::path& page, const Command& command) {
     return nullptr;
 }
 
-bool is_installed(const std::string& program) {
-    return !program.empty() && std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
-}
-
 bool is_run(const fs::path& page, const Command& command) {
     const NotRun* const exception = exception_for(page, command);
     return !exception || is_installed(exception->needs);

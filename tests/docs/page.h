@@ -116,6 +116,11 @@ inline std::vector<Command> commands_of(const Block& block) {
     return commands;
 }
 
+/// False for no name at all.
+inline bool is_installed(const std::string& program) {
+    return !program.empty() && std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
+}
+
 /// The command without its comment and with single blanks, by which the list of commands not run names it.
 inline std::string name_of(const Command& command) {
     static const std::regex comment(R"(\s+#[^\n]*)"), blanks(R"(\s+)");

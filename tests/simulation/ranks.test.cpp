@@ -2,12 +2,14 @@
 #include "espalier/simulation/simulation.h"
 
 #include "catch.h"
+#include "simulation/run/allowed_memory.h"
 #include "simulation/shading_stand.h"
 #include "simulation/spread/blocks.h"
 #include "temporary_folder.h"
 #include "thread_ranks.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <map>
@@ -125,6 +127,18 @@ TEST_CASE_METHOD(Spread, "two roots on two ranks drink from one soil, whose bala
     CHECK(drunk_by[0] + drunk_by[1] == Approx(drunk[0]).epsilon(1e-9));
     CHECK(missing[0] == Approx(drunk[0]).epsilon(1e-9));
     CHECK(std::max(balance[0], balance[1]) < 1e-12);
+}
+
+TEST_CASE_METHOD(Spread, "ranks on one machine share its memory", "[simulation][ranks]") {
+    std::array<std::size_t, 5> sharing{};
+    on_ranks(5, [&](Ranks& ranks) { sharing[static_cast<std::size_t>(ranks.rank())] = ranks_on_node(&ranks); });
+    CHECK(sharing == std::array<std::size_t, 5>{2, 2, 2, 2, 1});
+    CHECK(ranks_on_node(nullptr) == 1);
+    CHECK(default_memory(2) == default_memory() / 2);
+    CHECK(simulation::allowed_memory(0, path(), 2) == default_memory(2));
+    CHECK(simulation::allowed_memory(4711, path(), 2) == 4711);
+    REQUIRE(all_are_silent(run_on(2, scene(light), "shared")));
+    CHECK(nlohmann::json::parse(text_of(path() / "shared/run.json"))["memory"] == default_memory(2));
 }
 
 TEST_CASE_METHOD(Spread, "a world has the same bytes whatever its blocks are", "[simulation][ranks]") {

@@ -170,6 +170,27 @@ TEST_CASE_METHOD(Runs, "an interrupted run keeps every frame so far and says so"
     CHECK_THAT(text_of(output("run") / "plants.pvd"), Contains("0003.vtp") && Contains("</VTKFile>"));
 }
 
+TEST_CASE_METHOD(Runs, "a run of quick steps writes checkpoints by itself, too", "[simulation]") {
+    const Scene quick =
+        scene_with_model("lsystem: 1\nderivation length: 100000\naxiom: F(1)\nF(x) --> F(x+1)\nendlsystem\n");
+    StopRequest interrupt;
+    const StopRequest::Scope scope(&interrupt);
+    std::optional<int> step;
+    RunOptions options{.output = output("run"), .checkpoint_seconds = 0};
+    options.progress = [&](const Progress&) {
+        if (!step) step = step_of_checkpoint(output("run"));
+        if (step) interrupt.ask();
+    };
+    const RunResult result = run(quick, options);
+    REQUIRE(step);
+    CHECK(*step >= 1);
+    CHECK(*step < result.steps);
+    CHECK(step_of_checkpoint(output("run")) == result.steps);
+    CHECK_FALSE(step_of_checkpoint(output("elsewhere")));
+    std::ofstream(output("run") / "checkpoint") << "no such thing";
+    CHECK_FALSE(step_of_checkpoint(output("run")));
+}
+
 TEST_CASE_METHOD(Runs, "an interrupt during the last step interrupts nothing", "[simulation]") {
     StopRequest interrupt;
     const StopRequest::Scope scope(&interrupt);

@@ -39,6 +39,8 @@ public:
     int rank() const override { return static_cast<int>(rank_); }
     int count() const override { return static_cast<int>(boxes_.count()); }
     std::string name() const override { return "rank " + std::to_string(rank_); }
+    /// Two of them are on a machine.
+    std::string node() const override { return "node " + std::to_string(rank_ / 2); }
     std::vector<std::string> trade(std::vector<std::string> to_each) override {
         for (std::size_t to = 0; to < to_each.size(); ++to) {
             if (to != rank_ && !to_each[to].empty()) count_sent(1, to_each[to].size());

@@ -271,6 +271,7 @@ TEST_CASE("a large frame has the same bytes with any number of threads", "[timel
     for (const std::size_t threads : {1, 2, 8}) {
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
         Timeline timeline(folder.path, timeline_table("parameters = { vigour = 'F.2' }"), 0, true);
+        timeline.remove_old();
         record(timeline, 0, {&plant});
         timeline.finish();
         const std::string bytes = bytes_of(folder.path / "plants/0000.vtp");

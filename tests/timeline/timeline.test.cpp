@@ -83,7 +83,9 @@ TEST_CASE("a folder that holds a timeline is refused unless it may be overwritte
         for (int step = 0; step < 6; ++step) record(timeline, step, {&plant});
         timeline.finish();
         timeline.write_run("{}");
+        write_complete(folder.path);
     }
+    CHECK(missing_of_complete(folder.path).empty());
     write_file_at(folder.path / "plants/notes.txt", "mine");
     write_file_at(folder.path / ".film.avi.part", "mine");
     // What killed runs were writing.
@@ -93,12 +95,15 @@ TEST_CASE("a folder that holds a timeline is refused unless it may be overwritte
     CHECK(read_collection(folder.path / "plants.pvd").size() == 6);
     {
         Timeline timeline(folder.path, timeline_table(), 1, /*overwrite=*/true);
+        CHECK(read_collection(folder.path / "plants.pvd").size() == 6);
+        timeline.remove_old();
+        CHECK(fs::exists(folder.path / "run.json"));  // until the new run writes its own
         record(timeline, 0, {&plant});
     }
     CHECK(read_collection(folder.path / "plants.pvd").size() == 1);
     CHECK_FALSE(fs::exists(folder.path / "plants/0005.vtp"));
     CHECK_FALSE(fs::exists(folder.path / "lifespans.vtp"));
-    CHECK_FALSE(fs::exists(folder.path / "run.json"));
+    CHECK_FALSE(fs::exists(folder.path / "complete"));
     CHECK(fs::exists(folder.path / "plants/notes.txt"));
     CHECK(fs::exists(folder.path / ".film.avi.part"));
     for (const std::string& name : halves) CHECK_FALSE(fs::exists(folder.path / name));
@@ -131,7 +136,7 @@ TEST_CASE("a timeline that is replaced or goes on follows no link, neither to de
     fs::create_symlink(theirs / "statistics.csv", run / "statistics.csv");
     const auto go_on = [&] { Timeline(run, timeline_table(), 5, saved.str()); };
     CHECK(error_text(go_on).find("statistics.csv: it is a link, which is not followed") != std::string::npos);
-    const Timeline replaced(run, timeline_table(), 5, /*overwrite=*/true);
+    Timeline(run, timeline_table(), 5, /*overwrite=*/true).remove_old();
     CHECK(bytes_of(theirs / "0001.vtp") == "theirs");
     CHECK(bytes_of(theirs / "statistics.csv") == table_of_others);
 }

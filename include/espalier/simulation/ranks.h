@@ -19,6 +19,8 @@ public:
     virtual int count() const = 0;  ///< how many there are
     /// "rank 2 of 8 on node17", for messages.
     virtual std::string name() const = 0;
+    /// The machine that it runs on; ranks on the same one share its memory.
+    virtual std::string node() const { return {}; }
 
     /// Sends to_each[r] to rank r. Returns what each rank sent to this one, by rank. What is sent to oneself is moved.
     virtual std::vector<std::string> trade(std::vector<std::string> to_each) = 0;
@@ -50,6 +52,8 @@ bool is_first(const Ranks* ranks);
 std::vector<std::string> from_all(Ranks* ranks, const std::string& own);
 /// Returns, on every rank, what the first one gave.
 std::string from_first(Ranks* ranks, const std::string& own);
+/// How many ranks, this one among them, are on its machine; 1 where there are no others.
+std::size_t ranks_on_node(Ranks* ranks);
 /// Returns, on every rank, whether one of them gave true.
 bool any(Ranks* ranks, bool own);
 /// Does the work on every rank. If it fails on some, it throws on all: UserError, RunError or Stopped, with the message

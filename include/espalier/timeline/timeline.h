@@ -20,13 +20,17 @@ class FrameWriter;
 class Timeline final : public Recorder {
 public:
     /// Locks the folder (two runs into one are refused) and makes the recorders `table` asks for.
-    /// A folder that already holds a timeline is refused, unless `overwrite`: then that timeline's files are removed.
-    /// Throws UserError for settings that mean nothing.
+    /// A folder that already holds a timeline is refused, unless `overwrite`: then that timeline's files are there
+    /// until remove_old(). Throws UserError for settings that mean nothing.
     Timeline(const std::filesystem::path& folder, Settings table, int last_step, bool overwrite = false);
     /// Goes on with the timeline in the folder where save() left it; frames that came behind are written over. After
     /// choose(), if that is called. Throws RunError if the files are not those of the checkpoint.
     Timeline(const std::filesystem::path& folder, Settings table, int last_step, const std::string& checkpoint);
     ~Timeline() override;
+
+    /// Removes the timeline that this one replaces: `complete` first, run.json not at all, which tells until it is
+    /// written anew which files are the old run's. Throws RunError.
+    void remove_old() const;
 
     const std::filesystem::path& folder() const { return folder_; }
     /// One of its recorders does.
@@ -77,6 +81,13 @@ private:
     bool sees_every_step_ = false;     // one of them
     std::unique_ptr<FrameWriter> writer_;
 };
+
+/// Writes the last file of a run that ended by itself, `complete`: the names of the others that have no number, a line
+/// each. A run that begins or goes on has none. For make and its like. Throws RunError.
+void write_complete(const std::filesystem::path& folder);
+/// The first file named by `complete` in a run's folder that is not there; empty if all are, or if there is no
+/// `complete`.
+std::filesystem::path missing_of_complete(const std::filesystem::path& folder);
 
 /// For a process that helps another one, which has the Timeline, to write large frames: what records their pieces into
 /// the same folder. Null if that table's Timeline reads all plants in one process.

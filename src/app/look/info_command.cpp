@@ -1,11 +1,14 @@
 #include "espalier/archive/recorded_run.h"
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
+#include "espalier/simulation/simulation.h"
 
+#include "app/child.h"
 #include "app/command.h"
 #include "app/measured_report.h"
 #include "app/progress.h"
 #include "base/json_text.h"
+#include "base/number.h"
 #include "base/text.h"
 #include "picture/charts/quantity.h"
 
@@ -15,6 +18,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -98,14 +103,30 @@ Json read_run(const fs::path& folder) {
     return run;
 }
 
+/// The step of the last whole row of timings.csv; nothing if there is none.
+std::optional<int> timed_steps(const fs::path& folder) {
+    if (!is_readable(folder / "timings.csv")) return std::nullopt;
+    const std::string text = read_text(folder / "timings.csv");
+    const std::size_t end = text.rfind('\n');
+    if (end == std::string::npos || end == 0) return std::nullopt;
+    const std::size_t begin = text.rfind('\n', end - 1) + 1;
+    return whole_text_as<int>(std::string_view(text).substr(begin, text.find(',', begin) - begin));
+}
+
 Json summary_of(const fs::path& folder, const Json& run, const RecordedTable& last) {
     Json summary;
     for (const char* key : {"exit", "version", "started", "seed", "threads", "steps", "steps_done", "time_unit"}) {
         summary[key] = run.value(key, Json());
     }
-    summary["exit"] = exit_of_run(folder);
+    const std::string exit = exit_of_run(folder);
+    summary["exit"] = exit;
+    if (const std::optional<int> step = step_of_checkpoint(folder)) summary["checkpoint"] = *step;
     summary["scene"] = run.value("scene", Json::object()).value("name", "");
     summary["seconds"] = run.value("timings", Json::object()).value("total", 0.0);
+    if (exit == "running" || exit == "killed") {  // its run.json was written when it began, or went on
+        if (const std::optional<int> steps = timed_steps(folder)) summary["steps_done"] = *steps;
+        summary["seconds"] = nullptr;
+    }
     summary["memory"] = run.value("memory", Json());
     summary["peak_memory"] = run.value("peak_memory", Json());
     summary["frames"] = count_frames(folder / "plants", ".vtp");
@@ -176,11 +197,17 @@ void print_summary(const fs::path& folder, const Json& summary) {
         return value.is_string() ? value.get<std::string>() : value.dump();
     };
     fmt::print("{}: scene {}, seed {}, espalier {}\n", folder.string(), text("scene"), text("seed"), text("version"));
-    fmt::print("ended: {}; {} of {} steps in {} on {} threads, begun {}\n", text("exit"), text("steps_done"),
-               text("steps"), duration_text(summary["seconds"].get<double>()), text("threads"), text("started"));
+    const Json& seconds = summary["seconds"];
+    fmt::print("ended: {}; {} of {} steps{} on {} threads, begun {}\n", text("exit"), text("steps_done"), text("steps"),
+               seconds.is_number() ? " in " + duration_text(seconds.get<double>()) : "", text("threads"),
+               text("started"));
     if (summary["peak_memory"].is_number() && summary["memory"].is_number()) {
         fmt::print("memory: at most {} MiB of {} MiB\n", summary["peak_memory"].get<std::uint64_t>() >> 20,
                    summary["memory"].get<std::uint64_t>() >> 20);
+    }
+    if (summary.contains("checkpoint")) {
+        fmt::print("checkpoint: of step {}, from which `espalier resume {}` goes on\n", text("checkpoint"),
+                   quoted(folder.string()));
     }
     fmt::print("frames: {} of plants", text("frames"));
     for (const auto& [name, count] : summary["fields"].items()) fmt::print(", {} of field {}", count.dump(), name);

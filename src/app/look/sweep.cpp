@@ -12,7 +12,8 @@
 #include "base/csv_file.h"
 #include "base/folder.h"
 #include "base/platform.h"
-#include "simulation/run/recorded_command.h"
+#include "base/usable_memory.h"
+#include "simulation/run/run_standing.h"
 
 #include <fmt/format.h>
 
@@ -20,8 +21,10 @@
 #include <chrono>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <set>
 #include <thread>
+#include <utility>
 
 namespace espalier::app {
 namespace {
@@ -37,22 +40,21 @@ std::string complaint(const fs::path& log) {
     return "";
 }
 
-// Ended by itself, told the same at the same place, and everything it read is still what it was.
 bool is_done(const SweepRun& run) {
-    try {
-        const RecordedCommand command = read_command(run.folder);
-        return command.exit == "done" && command.arguments == run.words && command.folder == fs::current_path() &&
-               std::all_of(command.inputs.begin(), command.inputs.end(),
-                           [](const auto& input) { return is_unchanged(input.first, input.second); });
-    } catch (const UserError&) {
-        return false;  // no run, or half of one
-    }
+    return simulation::standing_of(run.folder, run.words).kind == RunStanding::Kind::complete;
+}
+
+// Runs at the same time leave a quarter of the memory to others; a single one has the half that every run has.
+std::size_t share_of_memory(std::size_t runs) {
+    return std::min(default_memory(), usable_memory() / 4 * 3 / std::max<std::size_t>(runs, 1));
 }
 
 /// The runs that go on at the moment, by their process numbers.
 class RunPool {
 public:
-    RunPool(const Sweep& sweep, std::size_t total, bool quiet) : sweep_(sweep), total_(total), quiet_(quiet) {}
+    /// `options`: of every run, besides its own.
+    RunPool(const Sweep& sweep, std::size_t total, bool quiet, std::vector<std::string> options)
+        : sweep_(sweep), options_(std::move(options)), total_(total), quiet_(quiet) {}
 
     std::size_t size() const { return running_.size(); }
     std::size_t failed() const { return failed_; }
@@ -60,7 +62,9 @@ public:
     void start(const SweepRun& run) {
         make_folder_below(run.folder.parent_path(), run.folder.filename());
         const std::vector<std::string> command = sweep_.command(run);
-        running_[start_run({command.begin() + 2, command.end()}, fs::current_path(), sweep_.log(run))] = &run;
+        std::vector<std::string> arguments(command.begin() + 2, command.end());
+        arguments.insert(arguments.end(), options_.begin(), options_.end());
+        running_[start_run(arguments, fs::current_path(), sweep_.log(run))] = &run;
     }
     /// None is left behind, even where the next cannot be started.
     ~RunPool() {
@@ -99,6 +103,7 @@ private:
     }
 
     const Sweep& sweep_;
+    std::vector<std::string> options_;
     std::map<int, const SweepRun*> running_;
     std::size_t total_, ended_ = 0, failed_ = 0;
     bool quiet_;
@@ -185,7 +190,11 @@ std::vector<const SweepRun*> Sweep::to_do() const {
 std::vector<std::string> Sweep::command(const SweepRun& run) const {
     std::vector<std::string> words{platform::program_file().string(), "run"};
     words.insert(words.end(), run.words.begin(), run.words.end());
-    words.insert(words.end(), {"--output", run.folder.string(), "--overwrite", "--quiet"});
+    words.insert(words.end(), {"--output", run.folder.string(), "--continue", "--overwrite"});
+    if (base_.quiet) words.emplace_back("--quiet");
+    if (base_.checkpoint_every > 0) {
+        words.insert(words.end(), {"--checkpoint-every", std::to_string(base_.checkpoint_every)});
+    }
     if (base_.threads > 0) words.insert(words.end(), {"--threads", std::to_string(base_.threads)});
     if (base_.memory > 0) words.insert(words.end(), {"--memory", std::to_string(base_.memory)});
     if (base_.disk > 0) words.insert(words.end(), {"--disk", std::to_string(base_.disk)});
@@ -204,7 +213,7 @@ Sweep::Outcome Sweep::run(int jobs, bool quiet) const {
         fmt::print(stderr, "{} of {} runs are already complete\n", runs_.size() - left.size(), runs_.size());
     }
     if (!left.empty()) tell_warnings(*left.front(), quiet);
-    RunPool pool(*this, left.size(), quiet);
+    RunPool pool(*this, left.size(), quiet, options_of_children(std::min(left.size(), static_cast<std::size_t>(jobs))));
     int passed_on = 0;
     for (std::size_t next = 0; pool.size() > 0 || (next < left.size() && signals.count() == 0);) {
         while (signals.count() == 0 && next < left.size() && pool.size() < static_cast<std::size_t>(jobs)) {
@@ -217,6 +226,14 @@ Sweep::Outcome Sweep::run(int jobs, bool quiet) const {
     return {pool.failed(), signals.count() > 0};
 }
 
+std::vector<std::string> Sweep::options_of_children(std::size_t at_once) const {
+    std::vector<std::string> options;
+    if (!base_.quiet) options.emplace_back("--quiet");
+    if (base_.memory == 0 && at_once > 1)
+        options.insert(options.end(), {"--memory", std::to_string(share_of_memory(at_once))});
+    return options;
+}
+
 // They are alike in all runs, whose own go to their logs.
 void Sweep::tell_warnings(const SweepRun& run, bool quiet) const {
     RunArguments arguments = arguments_of(run.variant);
@@ -225,6 +242,24 @@ void Sweep::tell_warnings(const SweepRun& run, bool quiet) const {
         print_warnings(scene_of(arguments).notes.diagnostics, quiet);
     } catch (const UserError&) {
         // The run itself will say what is wrong.
+    }
+}
+
+std::string Sweep::state(const SweepRun& run) {
+    using Kind = RunStanding::Kind;
+    const RunStanding standing = simulation::standing_of(run.folder, run.words);
+    if (standing.kind == Kind::absent) return "not begun";
+    if (standing.kind == Kind::other) return fmt::format("another run is in {}: {}", run.folder.string(), standing.why);
+    if (!standing.why.empty()) return standing.why;
+    const std::string exit = exit_of_run(run.folder);
+    const std::optional<int> step = step_of_checkpoint(run.folder);
+    return step ? fmt::format("{}, with a checkpoint of step {}", exit, *step) : exit;
+}
+
+void Sweep::remove_old_complaints() const {
+    std::error_code ignored;
+    for (const SweepRun& run : runs_) {
+        if (!complaint(log(run)).empty() && is_done(run)) fs::remove(log(run), ignored);
     }
 }
 

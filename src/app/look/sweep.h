@@ -36,7 +36,9 @@ public:
     RecordedTable first_statistics() const;
     /// Those that have not ended yet, or whose inputs or values have changed since.
     std::vector<const SweepRun*> to_do() const;
-    /// The whole command line of one, to be started in the current folder.
+    /// What became of a run that is not complete: "killed, with a checkpoint of step 12".
+    static std::string state(const SweepRun& run);
+    /// The whole command line of one, to be started in the current folder. It does what is then left to do.
     std::vector<std::string> command(const SweepRun& run) const;
     /// Where it writes what it prints.
     std::filesystem::path log(const SweepRun& run) const;
@@ -48,6 +50,8 @@ public:
     /// Runs what is to do, so many at a time. What fails does not keep the others.
     Outcome run(int jobs, bool quiet) const;
 
+    /// A run that is complete now may have failed before: what it then printed is removed.
+    void remove_old_complaints() const;
     /// The runs that are done, with the last step of their statistics.csv.
     std::vector<SweepResult> results() const;
     /// sweep.csv: the rows of every result behind its values. Returns its path.
@@ -57,6 +61,7 @@ public:
 
 private:
     RunArguments arguments_of(const Variant& variant) const;
+    std::vector<std::string> options_of_children(std::size_t at_once) const;
     void tell_warnings(const SweepRun& run, bool quiet) const;
 
     RunArguments base_;

@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <thread>
 
 namespace espalier::app {
 namespace {
@@ -27,6 +27,7 @@ public:
                  ModelOptions::Files::reading_and_drawing),
           sets_(app()),
           growth_(app()),
+          intervals_(app()),
           disk_(app()),
           picture_(app()) {
         app()
@@ -49,10 +50,17 @@ public:
             ->allow_extra_args(false);
         app().add_option("--plot", plot_,
                          "file for the charts, .png or .svg; default with --statistic: sweep.png in the folder");
-        app().add_flag("--list", list_, "print the commands that are still to be run, and do not run them");
+        CLI::Option* const list =
+            app().add_flag("--list", list_, "print the commands that are still to be run, and do not run them");
+        app()
+            .add_flag(
+                "--table", table_,
+                "make sweep.csv and the charts of the runs that are complete, say which are missing, and run none")
+            ->excludes(list);
         app().add_flag("--quiet", quiet_, quiet_growth_help);
         app().footer(
-            R"(A sweep continues where it stopped: complete runs whose files have not changed are kept.
+            R"(A sweep continues where it stopped: complete runs whose files have not changed are kept, and others go on from their
+last checkpoint. The commands of --list do so, too, when they start.
 At the end, sweep.csv has one row for every run and plant: the values, then the last step of statistics.csv.
 The chart shows the last step of the runs. One key is the x axis, and every value of the others is a line (or the chart is a
 heat map). Runs that differ only in simulation.seed become a mean with its standard deviation.
@@ -61,7 +69,8 @@ Examples:
   espalier sweep environments/two-trees.toml --vary environment.light.strength=0.2:1:5 --vary simulation.seed=1..4
   espalier sweep models/course/03-parameters.l --vary simulation.steps=1..6 --jobs 2
   espalier sweep environments/course-light.toml --vary environment.light.voxel=0.1:0.5:5 --statistic height,organs
-  espalier sweep environments/course-light.toml --vary simulation.seed=1..100 --list > commands     for a cluster: docs/sweeps.md)");
+  espalier sweep environments/course-light.toml --vary simulation.seed=1..100 --list > commands     for a cluster: docs/sweeps.md
+  espalier sweep environments/course-light.toml --vary simulation.seed=1..100 --table)");
     }
 
     int run() override {
@@ -74,18 +83,37 @@ Examples:
             for (const SweepRun* run : sweep.to_do()) print(sweep.command(*run));
             return exit_code::done;
         }
+        if (table_) return make_table(sweep);
         sweep.agree_on_programs();
         require_statistics(sweep);
         const Sweep::Outcome outcome = sweep.run(jobs(), quiet_);
         if (outcome.interrupted) return exit_code::interrupted;
-        const std::vector<SweepResult> results = sweep.results();
-        tell(sweep.write_table(results));
-        if (wants_plot() && !results.empty()) draw(sweep.drawn(results));
+        show_results(sweep);
         if (outcome.failed > 0) throw RunError(fmt::format("{} runs failed", outcome.failed));
         return exit_code::done;
     }
 
 private:
+    int make_table(const Sweep& sweep) const {
+        const std::vector<const SweepRun*> missing = sweep.to_do();
+        std::error_code unknown;
+        if (fs::exists(folder(), unknown)) show_results(sweep);
+        constexpr std::size_t most_named = 50;
+        for (std::size_t i = 0; i < std::min(missing.size(), most_named); ++i) {
+            fmt::print(stderr, "missing: {}: {}\n", missing[i]->variant.name, Sweep::state(*missing[i]));
+        }
+        if (missing.size() > most_named) fmt::print(stderr, "... and {} more\n", missing.size() - most_named);
+        if (missing.empty()) return exit_code::done;
+        throw RunError(fmt::format("{} of {} runs are missing", missing.size(), sweep.runs().size()));
+    }
+
+    void show_results(const Sweep& sweep) const {
+        sweep.remove_old_complaints();
+        const std::vector<SweepResult> results = sweep.results();
+        tell(sweep.write_table(results));
+        if (wants_plot() && !results.empty()) draw(sweep.drawn(results));
+    }
+
     void tell(const fs::path& file) const {
         if (!quiet_) fmt::print("{}\n", file.string());
     }
@@ -104,18 +132,22 @@ private:
         tell(path);
     }
 
-    static int cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+    // Those that a batch system or taskset leaves to this process.
+    static int cores() { return std::max(1, tbb::this_task_arena::max_concurrency()); }
     int jobs() const { return jobs_ > 0 ? jobs_ : cores(); }
 
     RunArguments base() const {
         RunArguments arguments;
         arguments.model = model_.arguments();
         arguments.overrides = sets_.overrides();
+        intervals_.add_to(arguments.overrides);
+        arguments.checkpoint_every = intervals_.checkpoint_every();
         arguments.steps = growth_.steps();
         arguments.seed = growth_.seed();
         arguments.memory = growth_.memory();
         arguments.trust = growth_.trust();
         arguments.disk = disk_.bytes();
+        arguments.quiet = quiet_;
         arguments.threads = threads_ > 0 ? threads_ : list_ ? 0 : std::max(1, cores() / jobs());
         return arguments;
     }
@@ -142,13 +174,14 @@ private:
     ModelOptions model_;
     SetOptions sets_;
     GrowthOptions growth_;
+    IntervalOptions intervals_;
     DiskOption disk_;
     PictureOptions picture_;
     std::vector<std::string> vary_;
     fs::path output_, plot_;
     std::vector<std::string> statistics_;
     int jobs_ = 0, threads_ = 0;
-    bool list_ = false, quiet_ = false;
+    bool list_ = false, table_ = false, quiet_ = false;
 };
 
 const RegisteredCommand<SweepCommand> sweep_entry{16};

@@ -38,6 +38,7 @@ public:
 
     int rank() const override { return rank_; }
     int count() const override { return count_; }
+    std::string node() const override { return node_; }
     std::string name() const override { return fmt::format("rank {} of {} on {}", rank_, count_, node_); }
 
     std::vector<std::string> trade(std::vector<std::string> to_each) override {

@@ -3,7 +3,7 @@
 #include "espalier/base/stop.h"
 #include "espalier/geometry/openvdb_grid.h"
 
-#include "base/platform.h"
+#include "base/usable_memory.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -37,7 +37,7 @@ void require_room(const TriangleMesh& mesh, double voxel, const std::string& fil
     const Box box = mesh.bounds();
     const glm::dvec3 farthest = glm::max(glm::abs(box.lower), glm::abs(box.upper)) / voxel;
     const bool countable = std::max({farthest.x, farthest.y, farthest.z}) < 1e9;
-    if (!countable || bytes > 0.5 * static_cast<double>(platform::machine_memory())) {
+    if (!countable || bytes > 0.5 * static_cast<double>(usable_memory())) {
         throw UserError(place, fmt::format("voxels of {:g} m are too small for {}: its level set would take about "
                                            "{:.3g} GB; the mesh is {:g} x {:g} x {:g} m",
                                            voxel, file, bytes / 1e9, box.upper.x - box.lower.x,

@@ -2,7 +2,7 @@
 
 #include "espalier/geometry/openvdb_grid.h"
 
-#include "base/platform.h"
+#include "base/usable_memory.h"
 #include "geometry/grids/vdb_tree.h"
 
 #include <fmt/format.h>
@@ -87,7 +87,7 @@ private:
 }  // namespace
 
 std::uint64_t memory_for_grids() {
-    return platform::machine_memory();
+    return usable_memory();
 }
 
 VdbFile::VdbFile(std::istream& in, std::uint64_t memory) : file_(in), memory_(memory) {

@@ -56,7 +56,7 @@ void make_folder_below(const fs::path& root, const fs::path& folder) {
 }
 
 bool tells_of_the_run(const fs::path& file) {
-    return file == "run.json" || file == "timings.csv" || file == ".lock" || file == "checkpoint";
+    return file == "run.json" || file == "timings.csv" || file == ".lock" || file == "checkpoint" || file == "complete";
 }
 
 // Other commands leave pictures, charts and exports in the folder of a run.
@@ -70,6 +70,21 @@ std::set<fs::path> timeline_files(const fs::path& folder) {
     std::set<fs::path> files = files_below(folder);
     std::erase_if(files, tells_of_the_run);
     return files;
+}
+
+AskedOptions asked_in(const Json& json) {
+    AskedOptions asked;
+    asked.memory = json.value("memory", asked.memory);
+    asked.disk = json.value("disk", asked.disk);
+    asked.blocks = json.value("blocks", asked.blocks);
+    asked.resident = json.value("resident", asked.resident);
+    asked.patience = json.value("timeout", asked.patience);
+    return asked;
+}
+
+// The command line gives it with a word, which no run notes among those that start it again.
+bool gives_consent(const std::string& argument) {
+    return argument.starts_with("--trust");
 }
 
 std::vector<NamedProgram> programs_in(const Json& json, const fs::path& run) {
@@ -100,11 +115,18 @@ RecordedCommand read_command(const fs::path& run) {
         command.version = json.at("version").get<std::string>();
         command.exit = json.at("exit").get<std::string>();
         command.checkpoint_every = json.value("checkpoint_every", 0);
+        command.asked = asked_in(json.value("asked", Json::object()));
+        command.steps = json.at("steps").get<int>();
+        command.steps_done = json.value("steps_done", 0);
         command.folder = json.at("command").at("folder").get<std::string>();
         command.arguments = json.at("command").at("arguments").get<std::vector<std::string>>();
         if (!is_absolute_path(command.folder)) {
             throw UserError(fmt::format("{}: the run was started in the folder '{}', which is no absolute path",
                                         file.string(), command.folder.string()));
+        }
+        if (std::any_of(command.arguments.begin(), command.arguments.end(), gives_consent)) {
+            throw UserError(
+                fmt::format("{} was changed: consent to start programs is no setting of a run", file.string()));
         }
         if (command.arguments.empty()) throw UserError(file.string() + " does not say how the run was started");
         for (const Json& input : json.at("inputs")) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/base/read_log.h"
+#include "espalier/simulation/simulation.h"
 
 #include "simulation/run/named_programs.h"
 
@@ -15,6 +16,8 @@ namespace espalier::simulation {
 struct RecordedCommand {
     std::string version, exit;
     int checkpoint_every = 0;
+    AskedOptions asked;
+    int steps = 0, steps_done = 0;       ///< where it was to end, and where it was when run.json was written
     std::filesystem::path folder;        ///< where it was started
     std::vector<std::string> arguments;  ///< for `espalier run`, without --output and what does not change the timeline
     std::map<std::filesystem::path, ReadLog::File> inputs;

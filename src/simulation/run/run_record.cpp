@@ -77,6 +77,18 @@ Json parameters_json(const Scene& scene, int planned_steps) {
     return parameters;
 }
 
+Json asked_json(const AskedOptions& asked) {
+    Json json = Json::object();
+    for (const auto& [name, value] : {std::pair{"memory", asked.memory},
+                                      {"disk", asked.disk},
+                                      {"blocks", asked.blocks},
+                                      {"resident", asked.resident}}) {
+        if (value > 0) json[name] = value;
+    }
+    if (asked.patience >= 0) json["timeout"] = asked.patience;
+    return json;
+}
+
 Json names_json(const std::set<std::filesystem::path>& files) {
     Json names = Json::array();
     for (const std::filesystem::path& file : files) names.push_back(file.string());
@@ -91,6 +103,7 @@ RunRecord::RunRecord(const World& world, const RunOptions& options)
       memory_(options.memory),
       ranks_(options.ranks ? options.ranks->count() : 1),
       checkpoint_every_(options.checkpoint_every),
+      asked_(options.asked),
       output_(options.output),
       inputs_(options.inputs),
       arguments_(options.arguments),
@@ -102,9 +115,15 @@ void RunRecord::begin(const Timeline& timeline) {
 }
 
 void RunRecord::save(std::ostream& out) const {
+    if (timings_) timings_->keep();
     put(out, static_cast<std::uint64_t>(timings_ ? timings_->size() : 0));
     put(out, steps_);
     put(out, total_);
+}
+
+int RunRecord::step_saved_in(std::istream& in) {
+    get<std::uint64_t>(in);  // of timings.csv
+    return get<int>(in) - 1;
 }
 
 void RunRecord::resume(const Timeline* timeline, std::istream& in) {
@@ -148,6 +167,7 @@ std::string RunRecord::json(const std::string& exit, double seconds) const {
     json["peak_memory"] = peak_memory();
     json["started"] = started_;
     json["checkpoint_every"] = checkpoint_every_;
+    json["asked"] = asked_json(asked_);
     json["files_before"] = names_json(files_before_);
     json["plants"] = plants_json(world_);
     if (Json view = view_json(scene); !view.is_null()) json["view"] = std::move(view);

@@ -26,6 +26,8 @@ public:
     /// Goes on with it as save() left it; without a timeline, which another rank has, no timings are written.
     void resume(const Timeline* timeline, std::istream& in);
     void save(std::ostream& out) const;
+    /// The last step that save() knew of. Throws RunError.
+    static int step_saved_in(std::istream& in);
     void add_step(const StageTimes& times);
     /// Without those that were dropped.
     int steps_done() const { return std::max(steps_ - 1, 0); }
@@ -40,6 +42,7 @@ private:
     std::size_t memory_;
     int ranks_;
     int checkpoint_every_;
+    AskedOptions asked_;
     std::filesystem::path output_;
     const ReadLog* inputs_;
     std::vector<std::string> arguments_;

@@ -8,6 +8,7 @@
 #include "base/reason.h"
 #include "simulation/run/disk_budget.h"
 #include "simulation/run/run_record.h"
+#include "simulation/run/run_standing.h"
 #include "simulation/run/sealed_file.h"
 #include "simulation/run/written_files.h"
 #include "simulation/scene/expressions.h"
@@ -67,7 +68,7 @@ public:
         if (!cut_short) review();
         const std::string exit = cut_short ? "interrupted" : "done";
         write_record(exit);
-        if (timeline_ && !cut_short) remove_checkpoint();
+        if (timeline_ && !cut_short) mark_complete(options_.output);
         return {record_.steps_done(),
                 world_.last_step(),
                 cut_short,
@@ -116,11 +117,20 @@ private:
             if (!existed) remove_if_unused(options_.output);
             throw;
         }
-        remove_checkpoint();
-        if (options_.overwrite && files_before) remove_written_files(options_.output, *files_before);
+        remove_checkpoint(options_.output);
+        if (options_.overwrite) remove_old_run(files_before);
         record_.note_files_before(files_below(files_folder_of(options_.output)));
         begin_recording();
         record_.begin(*timeline_);
+    }
+
+    // Who is killed here leaves the run.json of a run that has begun and has no checkpoint: it says which files of the
+    // models are to be removed, and never that something is complete.
+    void remove_old_run(const std::optional<std::set<std::filesystem::path>>& files_before) {
+        record_.note_files_before(files_before ? *files_before : files_below(files_folder_of(options_.output)));
+        write_record("running");
+        if (files_before) remove_written_files(options_.output, *files_before);
+        timeline_->remove_old();
     }
 
     // The first rank records; the others write files of large frames for it.
@@ -164,22 +174,22 @@ private:
     }
 
     void write_checkpoint() {
+        const double begin = seconds();
         world_.prepare_save(options_.output);
         together(options_.ranks, [&] {
             if (timeline_) write_own_checkpoint();
         });
+        checkpoint_end_ = seconds();
+        checkpoint_seconds_ = checkpoint_end_ - begin;
     }
 
     void write_own_checkpoint() {
         const StopRequest::Scope no_request(nullptr);
-        const double begin = seconds();
         std::ostringstream timeline;
         timeline_->save(timeline);
         write_file(checkpoint_of(options_.output), [&](const std::filesystem::path& temporary) {
             return save(temporary, timeline.str()) && seal(temporary);
         });
-        checkpoint_end_ = seconds();
-        checkpoint_seconds_ = checkpoint_end_ - begin;
     }
 
     bool save(const std::filesystem::path& path, const std::string& timeline) const {
@@ -189,11 +199,6 @@ private:
         record_.save(out);
         world_.save(out);
         return out.flush().good();
-    }
-
-    void remove_checkpoint() const {
-        std::error_code ignored;
-        std::filesystem::remove(checkpoint_of(options_.output), ignored);
     }
 
     static void remove_if_unused(const std::filesystem::path& folder) {
@@ -219,7 +224,7 @@ private:
             return false;  // the step at hand is dropped, and with it the state of the world
         }
         if (is_recorded_ && !world_.at_end()) {
-            if (options_.saving) options_.saving(world_.bytes_of_strings() + world_.environment().memory_kept());
+            if (options_.saving) options_.saving(bytes_of_checkpoint());
             write_checkpoint();
         }
         return world_.at_end();
@@ -230,24 +235,28 @@ private:
         note_step();
         if (!is_recorded_ || world_.at_end()) return;
         const bool is_due = options_.checkpoint_every > 0 && world_.steps_done() % options_.checkpoint_every == 0;
-        if (is_due || any(options_.ranks, timeline_ && may_be_dropped_next())) write_checkpoint();
+        if (is_due || any(options_.ranks, timeline_ && is_worth_a_checkpoint())) write_checkpoint();
         check_disk();
     }
 
-    // Who asks a run of long steps to end need not lose many of them. The checkpoints take a small part of the time.
-    bool may_be_dropped_next() const {
+    // Who asks a run of long steps to end need not lose many of them, and who kills a run of short ones loses a minute.
+    // The checkpoints take a small part of the time.
+    bool is_worth_a_checkpoint() const {
         constexpr double part_of_the_time = 20;
         const StageTimes& last = world_.times();
         const std::chrono::duration<double> step(last.derive + last.interpret + last.exchange + last.record);
-        if (step < patience_with_steps / 2) return false;
-        return seconds() - checkpoint_end_ >= part_of_the_time * checkpoint_seconds_.value_or(estimated_checkpoint());
+        const double since = seconds() - checkpoint_end_;
+        if (step < patience_with_steps / 2 && since < options_.checkpoint_seconds) return false;
+        return since >= part_of_the_time * checkpoint_seconds_.value_or(estimated_checkpoint());
     }
 
-    // Seconds that writing the strings takes at least.
+    // Seconds that writing it takes at least.
     double estimated_checkpoint() const {
         constexpr double bytes_per_second = 2e8;
-        return static_cast<double>(world_.bytes_of_strings()) / bytes_per_second;
+        return static_cast<double>(bytes_of_checkpoint()) / bytes_per_second;
     }
+
+    std::size_t bytes_of_checkpoint() const { return world_.bytes_of_strings() + world_.environment().memory_kept(); }
 
     void check_disk() {
         if (!any(options_.ranks, disk_ && disk_->is_spent())) return;
@@ -345,9 +354,20 @@ std::filesystem::path checkpoint_of(const std::filesystem::path& output) {
     return output / "checkpoint";
 }
 
+std::optional<int> step_of_checkpoint(const std::filesystem::path& output) {
+    try {
+        std::ifstream in(checkpoint_of(output), std::ios::binary);
+        if (!in || get<std::uint64_t>(in) != signature) return std::nullopt;
+        get_text(in, most_checkpoint_bytes);  // of the timeline
+        return RunRecord::step_saved_in(in);
+    } catch (const std::exception&) {
+        return std::nullopt;
+    }
+}
+
 RunResult run(const Scene& scene, const RunOptions& options) {
     RunOptions resolved = options;
-    if (resolved.memory == 0) resolved.memory = default_memory();
+    if (resolved.memory == 0) resolved.memory = default_memory(ranks_on_node(options.ranks));
     if (resolved.disk == 0) resolved.disk = default_disk;
     require_same(resolved);
     return Run(scene, resolved).walk();

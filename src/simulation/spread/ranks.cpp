@@ -61,6 +61,12 @@ std::string from_first(Ranks* ranks, const std::string& own) {
     return ranks->trade(std::vector<std::string>(count, is_first(ranks) ? own : "")).front();
 }
 
+std::size_t ranks_on_node(Ranks* ranks) {
+    if (!ranks) return 1;
+    const std::vector<std::string> all = from_all(ranks, ranks->node());
+    return static_cast<std::size_t>(std::count(all.begin(), all.end(), ranks->node()));
+}
+
 bool any(Ranks* ranks, bool own) {
     const std::vector<std::string> all = from_all(ranks, own ? "1" : "");
     return std::any_of(all.begin(), all.end(), [](const std::string& one) { return !one.empty(); });

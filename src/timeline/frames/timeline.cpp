@@ -1,6 +1,7 @@
 #include "espalier/timeline/timeline.h"
 
 #include "espalier/base/error.h"
+#include "espalier/base/file.h"
 
 #include "base/bytes.h"
 #include "base/folder.h"
@@ -23,6 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array indices{"plants.pvd", "fields.pvd", "lifespans.vtp", "statistics.csv", "background.vtp"};
 constexpr std::array reports{"run.json", "timings.csv"};
+constexpr const char* complete = "complete";
 
 bool holds_timeline(const fs::path& folder) {
     const auto is_there = [&](const char* name) { return fs::exists(folder / name); };
@@ -78,8 +80,9 @@ void remove_half_written(const Items& items) {
 // Indices first: what they no longer name is not part of a timeline.
 void remove_timeline(const fs::path& folder) {
     try {
+        fs::remove(folder / complete);
         for (const char* name : indices) fs::remove(folder / name);
-        for (const char* name : reports) fs::remove(folder / name);
+        fs::remove(folder / "timings.csv");
         remove_half_written(fs::directory_iterator(folder));
         remove_frame_files(folder / "plants");
         remove_frame_files(folder / "fields");
@@ -134,12 +137,13 @@ Timeline::Timeline(const fs::path& folder, Settings table, int last_step, bool o
                         folder.string()));
     }
     make_recorders(table);
-    if (overwrite) remove_timeline(folder);
 }
 
 Timeline::Timeline(const fs::path& folder, Settings table, int last_step, const std::string& checkpoint)
     : folder_(folder), lock_(folder), last_step_(last_step) {
     make_recorders(table);
+    std::error_code ignored;
+    fs::remove(folder / complete, ignored);
     remove_half_written(fs::recursive_directory_iterator(folder));
     std::istringstream in(checkpoint);
     restore(in);
@@ -165,6 +169,10 @@ void Timeline::make_recorders(Settings& table) {
 }
 
 Timeline::~Timeline() = default;
+
+void Timeline::remove_old() const {
+    remove_timeline(folder_);
+}
 
 bool Timeline::reads_plants() const {
     return std::any_of(recorders_.begin(), recorders_.end(),
@@ -266,6 +274,24 @@ void Timeline::finish() {
 
 void Timeline::write_run(const std::string& json) const {
     write_text(folder_ / "run.json", json);
+}
+
+void write_complete(const fs::path& folder) {
+    std::string names;
+    for (const char* name : indices) {
+        if (fs::exists(folder / name)) names.append(name).append("\n");
+    }
+    write_text(folder / complete, names);
+}
+
+fs::path missing_of_complete(const fs::path& folder) {
+    if (!is_readable(folder / complete)) return {};
+    std::istringstream names(read_text(folder / complete));
+    for (std::string name; std::getline(names, name);) {
+        std::error_code unknown;
+        if (!fs::exists(folder / name, unknown)) return name;
+    }
+    return {};
 }
 
 std::unique_ptr<Recorder> recorder_of_pieces(const fs::path& folder, Settings table, int last_step) {

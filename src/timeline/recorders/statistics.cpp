@@ -62,6 +62,7 @@ public:
     void finish() override {}
 
     void save(std::ostream& out) const override {
+        if (file_) file_->keep();
         put(out, static_cast<std::uint64_t>(file_ ? file_->size() : 0));
         put(out, previous_step_);
         put(out, static_cast<std::uint64_t>(quantities_.size()));
