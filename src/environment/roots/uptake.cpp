@@ -78,6 +78,16 @@ void PlantUptake::solve(std::span<const SoilPoint> points, UptakeModel model, co
 
 /// Newton's method: around each piece the flow through soil and root wall is replaced by its tangent, and the tree of
 /// these is solved exactly.
+void PlantUptake::pass(double days) {
+    days_ += days;
+    taken_.resize(water_.uptake.size(), 0);
+    for (std::size_t i = 0; i < taken_.size(); ++i) taken_[i] += water_.uptake[i] * days;
+}
+
+double PlantUptake::mean_uptake(std::size_t piece) const {
+    return days_ > 0 ? taken_[piece] / days_ : water_.uptake[piece];
+}
+
 void PlantUptake::solve_network(std::span<const SoilPoint> points, const RootCollar& collar, double demand,
                                 double held_head) {
     const std::size_t count = radial_.size();

@@ -48,6 +48,10 @@ public:
     /// Solves for `points`, the soil's state, to a residual of 1e-9 of the flow; `demand` in cm3/d, or a held head.
     void solve(std::span<const SoilPoint> points, UptakeModel model, const RootCollar& collar,
                const FeddesHeads& feddes, double demand, double held_head);
+    /// What was solved last has flowed for so many days.
+    void pass(double days);
+    /// The mean uptake of a piece since the step began, cm3/d; before any time has passed, that of the moment.
+    double mean_uptake(std::size_t piece) const;
 
 private:
     void solve_network(std::span<const SoilPoint> points, const RootCollar& collar, double demand, double held_head);
@@ -63,6 +67,8 @@ private:
     HydraulicTree tree_;
     RootFlow flow_;
     PlantWater water_;
+    std::vector<double> taken_;  ///< by each piece in the step, cm3
+    double days_ = 0;            ///< of the step that have passed
     bool begun_ = false;
 };
 
