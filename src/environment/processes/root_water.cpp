@@ -141,9 +141,9 @@ public:
     void accept(double days, double weight) override {
         days_in_step_ += days;
         for (std::size_t i = 0; i < roots_.size(); ++i) {
-            roots_[i].pass(days);
             if (plants_[i] >= transpired_.size()) continue;
             Transpired& plant = transpired_[plants_[i]];
+            roots_[i].pass(days, weight, plant.rate);
             plant.rate = weight * roots_[i].water().transpiration() + (1 - weight) * plant.rate;
             plant.in_step += plant.rate * days;
             plant.total += plant.rate * days;
