@@ -240,6 +240,8 @@ entry environments/root-2d-blind.toml "Root without hydrotropism" "Mech & Prusin
 entry environments/root-2d-stones.toml "Root between stones" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0
 entry environments/root-2d-uniform.toml "Root in evenly moist soil" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0
 entry environments/storm-on-layers.toml "A storm on layers of loam, clay and sand" "Richards 1931; Celia et al. 1990" -- --field water:slice --no-legend --azimuth 0 --elevation 0
+entry environments/leaf-day.toml "A clear day of a plant that drinks" "Farquhar et al. 1980; Medlyn et al. 2011" --steps 28 -- --colour-by leaves.temperature --no-legend
+grown_by environments/leaf-day.toml models/water/drinking.l "A plant that drinks" "ours"
 entry environments/root-drought.toml "A root in a drought" "Doussan et al. 1998; Schroeder et al. 2008" --steps 48 -- --field water:slice --no-legend
 entry environments/hydraulic-lift.toml "Water lifted at night" "Richards & Caldwell 1987" --steps 72 -- --field roots:slice --no-legend
 entry environments/hydraulic-lift-off.toml "Roots that do not conduct" "Richards & Caldwell 1987" --steps 72 -- --field water:slice --no-legend

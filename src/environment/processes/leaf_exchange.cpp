@@ -17,8 +17,7 @@ namespace {
 using namespace leaf;
 
 constexpr double seconds_per_day = 86400;
-constexpr double cm_per_megapascal = 10197.2;  ///< of water
-constexpr double water_density = 0.998;        ///< g cm-3
+constexpr double water_density = 0.998;  ///< g cm-3
 
 using Values = std::shared_ptr<const std::vector<float>>;
 
@@ -64,17 +63,12 @@ public:
         : name_(context.name),
           light_(settings.text("light")),
           light_place_(settings.place("light")),
-          roots_(settings.text_or("roots", "")),
           kind_(read_leaf_kind(settings)),
           air_(SceneAir::read(settings)),
           near_infrared_(settings.number_or("nir", 0.25, Range::between(0, 10))),
           potential_(settings.number_or("potential", 0, Range::between(-20, 0))),
           days_(settings.number_or("days", 1, Range::positive())),
-          leaves_(context.plants) {
-        if (!roots_.empty() && settings.has("potential")) {
-            throw UserError(settings.place("potential"), "leaves have the potential of 'roots': without 'potential'");
-        }
-    }
+          leaves_(context.plants) {}
 
     void advance(const WorldView& world, std::span<const Query>, Fields&) override {
         if (!world.environment) throw RunError("leaf-exchange works in a scene's exchange only");
@@ -117,7 +111,6 @@ public:
                 {"efficiency", moles > 0 ? 1000 * sum.gain / moles : none, "mmol/mol"},
                 {"temperature", sum.area > 0 ? warmth / sum.area : none, "degC"},
                 {"leaf_area", sum.area, "m2"},
-                {"potential", plant < potentials_.size() ? potentials_[plant] : potential_, "MPa"},
                 {"residual", plant < residuals_.size() ? residuals_[plant] : 0}};
     }
 
@@ -175,15 +168,12 @@ private:
         std::vector<LeafStep>& leaves = leaves_[plant.plant];
         if (!light.area || !light.power || !light.lit) return;
         leaves.assign(light.area->size(), {});
-        const double potential = potential_of(plant.plant, environment);
-        potentials_.resize(leaves_.size(), potential_);
-        potentials_[plant.plant] = potential;
         std::vector<double> residuals(leaves.size(), 0);
         for_in_parallel(std::size_t{0}, leaves.size(), [&](std::size_t i) {
             const float area = (*light.area)[i];
             if (!(area > 0)) return;
             leaves[i].area = area;
-            residuals[i] = exchange(leaves[i], light_on(light, i), (*light.lit)[i], potential, has_time_passed);
+            residuals[i] = exchange(leaves[i], light_on(light, i), (*light.lit)[i], has_time_passed);
         });
         residuals_.resize(leaves_.size(), 0);
         residuals_[plant.plant] = leaves.empty() ? 0 : *std::max_element(residuals.begin(), residuals.end());
@@ -195,16 +185,6 @@ private:
                            [&](const OrganQuantity& quantity) { return quantity.name == light_ + ".power.nir"; });
     }
 
-    /// Of the last step: roots take in this one what leaves give in it.
-    double potential_of(std::uint32_t plant, const Environment& environment) const {
-        if (roots_.empty()) return potential_;
-        if (!environment.find(roots_)) {
-            throw UserError(fmt::format("'{}' knows no process '{}' whose roots give its leaves water", name_, roots_));
-        }
-        const double head = environment.statistic(roots_ + ".collar", plant);
-        return std::isfinite(head) ? std::min(0.0, head / cm_per_megapascal) : 0;
-    }
-
     LeafLight light_on(const OrganLightValues& values, std::size_t module) const {
         const double power = (*values.power)[module];
         if (!(power > 0)) return {};
@@ -213,12 +193,12 @@ private:
     }
 
     /// Returns the largest residual.
-    double exchange(LeafStep& leaf, LeafLight light, double lit, double potential, bool has_time_passed) const {
+    double exchange(LeafStep& leaf, LeafLight light, double lit, bool has_time_passed) const {
         const Air air = air_.air();
         light.thermal = air_.thermal_radiation();
         const LeafLight dark{0, 0, light.thermal};
-        leaf.lit = gas_exchange(kind_, light, air, potential);
-        const GasExchange unlit = gas_exchange(kind_, dark, air, potential);
+        leaf.lit = gas_exchange(kind_, light, air, potential_);
+        const GasExchange unlit = gas_exchange(kind_, dark, air, potential_);
         if (has_time_passed) {
             const double dark_seconds = std::max(0.0, seconds_ - lit);
             const double bright = std::min(lit, seconds_);
@@ -226,8 +206,8 @@ private:
             leaf.water = leaf.area * (leaf.lit.transpiration * bright + unlit.transpiration * dark_seconds) *
                          water_molar_mass * 1000 / water_density;
         }
-        return std::max(residuals_of(leaf.lit, kind_, light, air, potential).largest(),
-                        residuals_of(unlit, kind_, dark, air, potential).largest());
+        return std::max(residuals_of(leaf.lit, kind_, light, air, potential_).largest(),
+                        residuals_of(unlit, kind_, dark, air, potential_).largest());
     }
 
     LeafStep leaf_behind(const Query& query) const {
@@ -238,13 +218,12 @@ private:
 
     std::string name_, light_;
     Place light_place_;
-    std::string roots_;
     LeafKind kind_;
     SceneAir air_;
     double near_infrared_, potential_, days_;
     double seconds_ = 0;                         ///< of the step
     std::vector<std::vector<LeafStep>> leaves_;  ///< of each plant, by module
-    std::vector<double> potentials_, residuals_;
+    std::vector<double> residuals_;
 };
 
 const std::string& help() {
@@ -255,9 +234,8 @@ has measured in this step. Leaves are what those take for leaves.
 light          required; name of the process of light, which stands before this one in the scene. A band "nir" of it is absorbed
                energy, too
 nir            0.25; without such a band, near infrared that leaves absorb, as a share of the energy of PAR that they do
-roots          none; name of a root-water: leaves have the water potential of its collar in the step before. With
-               collar = { leaves = "name of this process" } the roots take what the leaves give
-potential      0 MPa; of all leaves
+potential      0 MPa; water potential of all leaves, by which stomata close where `sf` is above 0. Roots take what the leaves
+               give where a root-water says collar = { leaves = "name of this process" }
 days           1; days that a unit of time stands for
 
 Of the leaves:
@@ -275,7 +253,7 @@ The light of a step counts as its mean while there is light: photosynthesis is n
 right and steps of a day take 10 to 25 % too much on a clear one.
 
 Statistics of each plant: gain (mol) and water (cm3) of the step, transpiration (cm3/d), efficiency (mmol CO2 per mol of water),
-temperature, leaf_area (m2), potential (MPa), residual: how far the equations are from holding, of the largest term.
+temperature, leaf_area (m2), residual: how far the equations are from holding, of the largest term.
 Organs: assimilation, transpiration, conductance, temperature, internal, deficit, gain, water.)";
     return text;
 }

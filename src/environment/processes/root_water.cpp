@@ -52,7 +52,7 @@ FeddesHeads read_feddes(const Settings& settings, UptakeModel model) {
 struct Transpired {
     double in_step = 0, wanted_in_step = 0, total = 0;
     double taken = 0, taken_depth = 0;                        ///< from the soil in the step, and times the depth in cm
-    double rate = 0;                                          ///< of the last substep, cm3/d
+    double rate = 0, last_demand = 0;                         ///< of the last substep, cm3/d
     double lowest = std::numeric_limits<double>::infinity();  ///< head at the collar in the step, cm
 };
 
@@ -99,6 +99,7 @@ public:
         roots_.clear();
         plants_.clear();
         demands_.clear();
+        begins_ = true;
         std::fill(lengths_.begin(), lengths_.end(), 0);
         for (const PlantView& plant : world.plants) {
             plants_.push_back(plant.plant);
@@ -119,6 +120,7 @@ public:
     double longest_substep(double day) const override { return collar_.longest_span(day); }
 
     bool has_jumped(double day) override {
+        if (!collar_.leaves.empty()) return std::exchange(begins_, false);  // leaves say another demand in each step
         const double before = std::exchange(level_, collar_.level(day));
         return before != level_;
     }
@@ -132,7 +134,7 @@ public:
         const double held = collar_.held ? collar_.head.at(day + 0.5 * days) : 0;
         for (std::size_t p = 0; p < roots_.size(); ++p) {
             PlantUptake& plant = roots_[p];
-            plant.solve(points, model_, collar_, feddes_, collar_.leaves.empty() ? demand : demands_[p], held);
+            plant.solve(points, model_, collar_, feddes_, collar_.leaves.empty() ? demand : demand_of(p, weight), held);
             const PlantRoots& roots = plant.roots();
             for (std::size_t i = 0; i < roots.pieces.size(); ++i) {
                 if (roots.cells[i] == PlantRoots::no_cell) continue;
@@ -152,6 +154,7 @@ public:
             plant.in_step += plant.rate * days;
             plant.total += plant.rate * days;
             plant.wanted_in_step += (collar_.leaves.empty() ? mean_demand_ : demands_[i]) * days;
+            plant.last_demand = demands_[i];
             const std::vector<double>& uptake = roots_[i].water().uptake;
             for (std::size_t piece = 0; piece < uptake.size(); ++piece) {
                 const double taken = std::max(0.0, uptake[piece]) * days;
@@ -209,8 +212,8 @@ public:
         const double common[] = {level_, last_demand_, days_in_step_};
         write_doubles(out, common);
         for (const Transpired& plant : transpired_) {
-            const double numbers[] = {plant.in_step, plant.wanted_in_step, plant.total,      plant.rate,
-                                      plant.lowest,  plant.taken,          plant.taken_depth};
+            const double numbers[] = {plant.in_step, plant.wanted_in_step, plant.total,       plant.rate,
+                                      plant.lowest,  plant.taken,          plant.taken_depth, plant.last_demand};
             write_doubles(out, numbers);
         }
     }
@@ -223,7 +226,7 @@ public:
         days_in_step_ = common[2];
         for (Transpired& plant : transpired_) {
             for (double* number : {&plant.in_step, &plant.wanted_in_step, &plant.total, &plant.rate, &plant.lowest,
-                                   &plant.taken, &plant.taken_depth}) {
+                                   &plant.taken, &plant.taken_depth, &plant.last_demand}) {
                 read_doubles(in, {number, 1});
             }
         }
@@ -234,6 +237,13 @@ private:
     const PlantUptake* roots_of(std::uint32_t plant) const {
         const auto at = std::find(plants_.begin(), plants_.end(), plant);
         return at == plants_.end() ? nullptr : &roots_[static_cast<std::size_t>(at - plants_.begin())];
+    }
+
+    /// Met over the substep as the demand of the scene is, cm3/d.
+    double demand_of(std::size_t plant, double weight) const {
+        const std::uint32_t number = plants_[plant];
+        const double last = number < transpired_.size() ? transpired_[number].last_demand : 0;
+        return std::max(0.0, (demands_[plant] - (1 - weight) * last) / weight);
     }
 
     /// cm3/d: what the leaves of a plant give in this step.
@@ -311,6 +321,7 @@ private:
     std::vector<std::uint32_t> plants_;         ///< of this step, and their roots
     std::vector<PlantUptake> roots_;
     std::vector<double> demands_;         ///< of their leaves, cm3/d
+    bool begins_ = true;                  ///< no substep of this step has been taken
     std::vector<Transpired> transpired_;  ///< by plant
     WaterBrick lengths_;                  ///< of roots in each voxel, cm
     WaterField shown_uptake_, shown_lengths_;
