@@ -23,7 +23,7 @@ LeafDay grown(const std::vector<std::pair<std::string, std::string>>& overrides 
         const auto value = [&](const char* name) { return world.environment().statistic(name, 0); };
         day.gain += value("leaves.gain");
         day.leaf_water += value("leaves.water");
-        day.soil_water += value("water.drunk");
+        day.soil_water = 40 * value("water.drunk");  // mm since the beginning, over 400 cm2
         day.root_water = value("roots.total");
         day.residual = std::max(day.residual, value("leaves.residual"));
         day.efficiency.push_back(value("leaves.efficiency"));
