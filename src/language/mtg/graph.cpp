@@ -2,6 +2,7 @@
 
 #include "base/number.h"
 #include "base/text.h"
+#include "language/measured/cells.h"
 #include "language/measured/notes.h"
 #include "language/mtg/columns.h"
 #include "language/mtg/entity_code.h"
@@ -18,20 +19,6 @@ namespace espalier::language::mtg {
 namespace {
 
 constexpr std::size_t most_entities = 20'000'000;
-
-/// The cells of a line between tabs, without blanks around them.
-void split(std::string_view line, std::vector<std::string_view>& cells) {
-    cells.clear();
-    for (std::size_t begin = 0; begin <= line.size();) {
-        const std::size_t end = std::min(line.find('\t', begin), line.size());
-        std::string_view cell = line.substr(begin, end - begin);
-        while (!cell.empty() && cell.front() == ' ') cell.remove_prefix(1);
-        while (!cell.empty() && (cell.back() == ' ' || cell.back() == '\r')) cell.remove_suffix(1);
-        cells.push_back(cell);
-        begin = end + 1;
-    }
-    while (!cells.empty() && cells.back().empty()) cells.pop_back();
-}
 
 /// "mtg" for "MTG :"; "" if the line begins no section.
 std::string section_of(std::string_view line) {
@@ -69,10 +56,8 @@ public:
 
     Graph read(std::string_view text) {
         for (std::size_t begin = 0; begin < text.size();) {
-            const std::size_t end = std::min(text.find('\n', begin), text.size());
             ++line_;
-            read_line(text.substr(begin, end - begin));
-            begin = end + 1;
+            read_line(measured::next_line(text, begin));
         }
         if (section_ != "mtg") fail(1, "this file has no section MTG:");
         if (graph_.vertices.empty()) fail(1, "this file has no entities below MTG:");
@@ -110,7 +95,7 @@ private:
     void read_line(std::string_view line) {
         note(line);
         line = line.substr(0, line.find('#'));
-        split(line, cells_);
+        measured::split_cells(line, '\t', cells_);
         if (std::all_of(cells_.begin(), cells_.end(), [](std::string_view cell) { return cell.empty(); })) return;
         if (section_ == "mtg" && !is_header_) return read_row();
         if (const std::string section = section_of(line); !section.empty()) {
