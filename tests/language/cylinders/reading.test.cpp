@@ -10,7 +10,7 @@ using namespace espalier;
 
 namespace {
 
-const MeasuredText table{"cylinders", "tree.csv"};
+const MeasuredText cylinder_table{"cylinders", "tree.csv"};
 
 const std::string treeqsm_head =
     "radius,length,start_x,start_y,start_z,axis_x,axis_y,axis_z,parent,extension,added,UnmodRadius,branch\n";
@@ -35,7 +35,7 @@ const std::string archi =
 }  // namespace
 
 TEST_CASE("cylinders: a branch begins on its bearer's surface, and each cylinder keeps its length", "[cylinders]") {
-    const MeasuredPlants plants = table.plants_of(treeqsm);
+    const MeasuredPlants plants = cylinder_table.plants_of(treeqsm);
     const MeasuredSummary summary = summary_of(plants);
     REQUIRE(plants.axes.size() == 2);
     CHECK(summary.axes_of_order == std::vector<std::size_t>{1, 1});
@@ -45,7 +45,7 @@ TEST_CASE("cylinders: a branch begins on its bearer's surface, and each cylinder
     // The trunk is divided where the branch hangs on it.
     CHECK(plants.axes[0].nodes[plants.axes[1].on_node].at.y == Approx(0.5));
     CHECK(plants.axes[1].label == "branch 2");
-    CHECK_THAT(table.warnings(treeqsm),
+    CHECK_THAT(cylinder_table.warnings(treeqsm),
                Catch::Contains("column 'UnmodRadius' is not used (4 places)") && !Catch::Contains("'radius'"));
 }
 
@@ -57,13 +57,13 @@ TEST_CASE("cylinders: programs are told apart by their headers", "[cylinders]") 
     CHECK(program(simple_forest) == "SimpleForest");
     CHECK(program(archi) == "aRchi");
     for (const std::string& text : {simple_forest, archi}) {
-        const MeasuredPlants plants = table.plants_of(text);
+        const MeasuredPlants plants = cylinder_table.plants_of(text);
         CHECK(plants.plants.size() == 1);
         CHECK(plants.axes.size() == 2);
         CHECK(plants.axes[1].order == 1);
         CHECK(summary_of(plants).length == Approx(2.5));
     }
-    CHECK(table.summary(simple_forest).link_length == 0);
+    CHECK(cylinder_table.summary(simple_forest).link_length == 0);
     CHECK(language::cylinders::is_cylinder_model("\n# of a scan\n" + archi));
     CHECK_FALSE(language::cylinders::is_cylinder_model("time,temperature\n0,20\n"));
 }
@@ -84,8 +84,8 @@ TEST_CASE("cylinders: the tables of MATLAB, of R and of TreeQSM itself are the s
           with_head("radius (m),length (m),start_point,axis_direction,parent,extension,added,UnmodRadius (m),branch",
                     '\t'),
           with_head("Rad,Len,Sta1,Sta2,Sta3,Axe1,Axe2,Axe3,CPar,CExt,Added,UnmodRadius,BoC1", ',')}) {
-        CHECK(table.summary(text).length == Approx(2.75));
-        CHECK(table.summary(text).link_length == Approx(0.12));
+        CHECK(cylinder_table.summary(text).length == Approx(2.75));
+        CHECK(cylinder_table.summary(text).link_length == Approx(0.12));
     }
 }
 
@@ -94,30 +94,33 @@ TEST_CASE("cylinders: rows may stand in any order", "[cylinders]") {
     const std::size_t last = simple_forest.rfind('\n', simple_forest.size() - 2) + 1;
     const std::string turned =
         simple_forest.substr(0, first) + simple_forest.substr(last) + simple_forest.substr(first, last - first);
-    CHECK(table.summary(turned).length == Approx(2.5));
+    CHECK(cylinder_table.summary(turned).length == Approx(2.5));
 }
 
 TEST_CASE("cylinders: what the user says of unit and axes counts", "[cylinders]") {
     MeasuredOptions options;
     options.unit = "cm";
     options.up = "x";
-    const MeasuredSummary summary = table.summary(treeqsm, options);
+    const MeasuredSummary summary = cylinder_table.summary(treeqsm, options);
     CHECK(summary.length == Approx(0.0275));
     CHECK(summary.extent[1].y == Approx(0.0087));
 }
 
 TEST_CASE("cylinders: malformed tables end in one line", "[cylinders]") {
     const auto row = [](const std::string& ends) { return "0.1,1,0,0,0,0,0,1," + ends + ",0,0.1,1\n"; };
-    CHECK(table.mistake(treeqsm_head) == "tree.csv:1:1: this file has no cylinders");
-    CHECK_THAT(table.mistake(treeqsm_head + row("7,0")), Catch::Contains("tree.csv:2:1: there is no number 7"));
-    CHECK_THAT(table.mistake(treeqsm_head + row("0,0") + row("3,0") + row("2,0")),
+    CHECK(cylinder_table.mistake(treeqsm_head) == "tree.csv:1:1: this file has no cylinders");
+    CHECK_THAT(cylinder_table.mistake(treeqsm_head + row("7,0")),
+               Catch::Contains("tree.csv:2:1: there is no number 7"));
+    CHECK_THAT(cylinder_table.mistake(treeqsm_head + row("0,0") + row("3,0") + row("2,0")),
                Catch::Contains("tree.csv:3:1: the parents of 2 lead round in a ring"));
-    CHECK_THAT(table.mistake(treeqsm_head + "0.1,1,0,0,zero,0,0,1,0,0,0,0,1\n"),
+    CHECK_THAT(cylinder_table.mistake(treeqsm_head + "0.1,1,0,0,zero,0,0,1,0,0,0,0,1\n"),
                Catch::Contains("tree.csv:2:5: column start_z of a cylinder is a number, not 'zero'"));
-    CHECK_THAT(table.mistake(treeqsm_head + "0.1,1\n"), Catch::Contains("is a number, not ''"));
-    CHECK_THAT(table.mistake(treeqsm_head + "0.1,1,0,0,0,0,0,0,0,0,0,0,1\n"), Catch::Contains("has no direction"));
-    CHECK_THAT(table.mistake(treeqsm_head + "-0.1,1,0,0,0,0,0,1,0,0,0,0,1\n"), Catch::Contains("not below 0"));
-    CHECK_THAT(table.mistake(simple_forest + "2,0,0,0,1,0.5,0,1,0.02,0.5,0.5,1,0\n"),
+    CHECK_THAT(cylinder_table.mistake(treeqsm_head + "0.1,1\n"), Catch::Contains("is a number, not ''"));
+    CHECK_THAT(cylinder_table.mistake(treeqsm_head + "0.1,1,0,0,0,0,0,0,0,0,0,0,1\n"),
+               Catch::Contains("has no direction"));
+    CHECK_THAT(cylinder_table.mistake(treeqsm_head + "-0.1,1,0,0,0,0,0,1,0,0,0,0,1\n"), Catch::Contains("not below 0"));
+    CHECK_THAT(cylinder_table.mistake(simple_forest + "2,0,0,0,1,0.5,0,1,0.02,0.5,0.5,1,0\n"),
                Catch::Contains("the number 2 stands on line 4, too"));
-    CHECK_THAT(table.mistake(std::string(1'000'000, ',') + "\n"), Catch::Contains("no header of a cylinder model"));
+    CHECK_THAT(cylinder_table.mistake(std::string(1'000'000, ',') + "\n"),
+               Catch::Contains("no header of a cylinder model"));
 }
