@@ -6,6 +6,7 @@
 #include <exception>
 #include <memory>
 #include <string>
+#include <string_view>
 
 struct XML_ParserStruct;
 
@@ -19,6 +20,11 @@ public:
     bool has(const char* name) const;
     /// "" if there is none.
     std::string value(const char* name) const;
+    /// Calls what it is given with each name and its value, as texts that end with the element.
+    template <class Visit>
+    void each(Visit visit) const {
+        for (const char* const* at = first_; *at; at += 2) visit(std::string_view(at[0]), std::string_view(at[1]));
+    }
 
 private:
     const char* const* first_;  // of expat: names and values in turn, then null

@@ -71,7 +71,7 @@ TEST_CASE("RSML: what is no RSML is refused at its place", "[rsml]") {
     CHECK_THAT(mistake_of_rsml(file("<unit>parsec</unit>", root(straight))), Contains("parsec"));
     CHECK_THAT(mistake_of_rsml(file("", root("<point x=\"nan\" y=\"0\"/>"))), Contains("root.rsml:2:"));
     CHECK_THAT(mistake_of_rsml(file("", root("<point y=\"0\"/>"))), Contains("x is a number"));
-    CHECK_THAT(mistake_of_rsml(file("", root(""))), Contains("no points"));
+    CHECK_THAT(mistake_of_rsml(file("", root("<root/>"))), Contains("no root of this file has points"));
     CHECK_THAT(mistake_of_rsml("<!DOCTYPE r [<!ENTITY a \"b\">]><rsml>&a;</rsml>"), Contains("entities"));
     std::string deep;
     for (int i = 0; i < 200; ++i) deep += "<root><geometry><polyline><point x=\"0\" y=\"0\"/></polyline></geometry>";

@@ -1,0 +1,334 @@
+#include "language/rsml/raw_file.h"
+
+#include "base/number.h"
+#include "base/text.h"
+#include "base/xml_reader.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace espalier::language::rsml {
+namespace {
+
+constexpr std::size_t most_orders = 60;
+constexpr double largest_number = 1e12;
+constexpr std::string_view blanks = " \t\r\n";
+
+std::string_view trimmed(std::string_view text) {
+    const std::size_t begin = text.find_first_not_of(blanks);
+    return begin == std::string_view::npos ? "" : text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
+}
+
+class RawReader final : public XmlReader {
+public:
+    RawReader(const std::string& name, measured::Notes& notes) : XmlReader(name), notes_(notes) {}
+
+    RawFile read(const std::string& text) {
+        parse(text);
+        if (!is_rsml_) fail("this is no RSML file: its outermost element is not <rsml>");
+        if (!bookkeeping_.empty()) notes_.unused("metadata " + bookkeeping_, bookkeeping_place_);
+        return std::move(file_);
+    }
+
+private:
+    // -- numbers
+
+    double number(std::string_view text, const std::string& what) const {
+        const std::optional<double> value = finite_number(trimmed(text));
+        if (!value || std::abs(*value) > largest_number) fail(fmt::format("{} is a number, not '{}'", what, text));
+        return *value;
+    }
+
+    /// A value that was not measured is NaN.
+    double measured_number(std::string_view text, const std::string& what) const {
+        const std::string word = plain_name(trimmed(text));
+        if (word.empty() || word == "nan" || word == "na" || word == "null") {
+            return std::numeric_limits<double>::quiet_NaN();
+        }
+        return number(text, what);
+    }
+
+    // -- elements
+
+    void begin(const std::string& element, const XmlAttributes& attributes) override {
+        const Scope around = open_.empty() ? Scope::outside : open_.back();
+        if (around == Scope::point || around == Scope::sample) {
+            unused("element <" + element + ">");
+            return open_.push_back(Scope::unused);
+        }
+        const std::string name = plain_name(element);
+        const Scope scope = scope_of(around, name).value_or(Scope::unused);
+        open_.push_back(scope);
+        switch (scope) {
+            case Scope::document:
+                is_rsml_ = true;
+                break;
+            case Scope::plant:
+                return begin_plant(attributes);
+            case Scope::root:
+                return begin_root(attributes);
+            case Scope::polyline:
+                return begin_polyline();
+            case Scope::point:
+                return add_point(attributes);
+            case Scope::functions:
+            case Scope::function:
+                return begin_function(name, attributes);
+            case Scope::sample:
+                return begin_sample(attributes);
+            case Scope::property:
+                return begin_property(element, attributes);
+            case Scope::definition:
+                defined_name_.clear();
+                break;
+            case Scope::bookkeeping:
+                note_bookkeeping(name, around);
+                break;
+            case Scope::unused:
+                if (around != Scope::unused) unused("element <" + element + ">");
+                break;
+            default:
+                break;
+        }
+    }
+
+    void end(const std::string& /*element*/) override {
+        const Scope scope = open_.back();
+        open_.pop_back();
+        switch (scope) {
+            case Scope::unit:
+                file_.unit = trimmed(text());
+                break;
+            case Scope::up:
+                file_.up = plain_name(trimmed(text()));
+                break;
+            case Scope::software:
+                file_.software = trimmed(text());
+                break;
+            case Scope::resolution:
+                end_resolution();
+                break;
+            case Scope::defined_name:
+                defined_name_ = plain_name(trimmed(text()));
+                break;
+            case Scope::defined_unit:
+                file_.defined_unit[defined_name_] = trimmed(text());
+                break;
+            case Scope::plant:
+                plant_.reset();
+                break;
+            case Scope::root:
+                open_roots_.pop_back();
+                break;
+            case Scope::functions:
+            case Scope::function:
+                end_function();
+                break;
+            case Scope::sample:
+                end_sample();
+                break;
+            case Scope::property:
+                end_property();
+                break;
+            default:
+                break;
+        }
+    }
+
+    void unused(const std::string& what) { notes_.unused(what, here()); }
+
+    void note_bookkeeping(const std::string& name, Scope around) {
+        if (around != Scope::metadata || name == "version") return;
+        if (bookkeeping_.empty()) bookkeeping_place_ = here();
+        bookkeeping_ += (bookkeeping_.empty() ? "<" : ", <") + name + ">";
+    }
+
+    void end_resolution() {
+        if (trimmed(text()).empty()) return;
+        const double resolution = number(text(), "the resolution");
+        if (resolution > 0) {
+            file_.resolution = resolution;
+        } else {
+            notes_.warn(fmt::format("a resolution of {} is none: it is not used", resolution), here());
+        }
+    }
+
+    // -- plants and roots
+
+    RawRoot& root() { return file_.roots[open_roots_.back()]; }
+
+    void begin_plant(const XmlAttributes& attributes) {
+        std::string label, id;
+        attributes.each([&](std::string_view name, std::string_view value) {
+            const std::string plain = plain_name(name);
+            if (plain == "label")
+                label = value;
+            else if (plain == "id")
+                id = value;
+            else
+                unused(fmt::format("attribute '{}' of <plant>", name));
+        });
+        plant_ = file_.plants.size();
+        file_.plants.push_back(label.empty() ? id : label);
+    }
+
+    void begin_root(const XmlAttributes& attributes) {
+        if (open_roots_.size() > most_orders) fail(fmt::format("roots are nested deeper than {}", most_orders));
+        if (!plant_) begin_plant(XmlAttributes(no_attributes.data()));
+        RawRoot& root = file_.roots.emplace_back();
+        root.axis.place = here();
+        root.axis.plant = *plant_;
+        if (!open_roots_.empty()) root.axis.bearer = open_roots_.back();
+        open_roots_.push_back(file_.roots.size() - 1);
+        attributes.each([&](std::string_view name, std::string_view value) {
+            const std::string plain = plain_name(name);
+            if (plain == "label")
+                root.axis.label = value;
+            else if (plain == "id")
+                return;
+            else if (term_of(plain))
+                add_property(std::string(name), value);
+            else
+                unused(fmt::format("attribute '{}' of <root>", name));
+        });
+    }
+
+    void begin_polyline() {
+        if (!root().points.empty()) root().breaks.push_back(root().points.size());
+    }
+
+    void add_point(const XmlAttributes& attributes) {
+        glm::dvec3 point(0);
+        bool has_x = false, has_y = false;
+        attributes.each([&](std::string_view name, std::string_view value) {
+            const char letter = name.size() == 1 ? static_cast<char>(name[0] | 0x20) : '\0';
+            if (letter == 'x')
+                point.x = number(value, "x"), has_x = true;
+            else if (letter == 'y')
+                point.y = number(value, "y"), has_y = true;
+            else if (letter == 'z')
+                point.z = number(value.empty() ? "0" : value, "z");
+            else
+                unused(fmt::format("attribute '{}' of <point>", name));
+        });
+        if (!has_x || !has_y) fail(fmt::format("this point has no {}: x is a number, y, too", has_x ? "y" : "x"));
+        if (point.z != 0) file_.is_flat = false;
+        root().points.push_back(point);
+    }
+
+    // -- properties and functions
+
+    void add_property(const std::string& name, std::string_view text) {
+        const Term term = *term_of(name);
+        const double value = measured_number(text, name);
+        if (std::isnan(value)) return;
+        root().properties.push_back({plain_name(name), term, value});
+    }
+
+    void begin_property(const std::string& element, const XmlAttributes& attributes) {
+        property_ = element;
+        property_value_.reset();
+        attributes.each([&](std::string_view name, std::string_view value) {
+            const std::string plain = plain_name(name);
+            if (plain == "name" || plain == "label")
+                property_ = value;
+            else if (plain == "value")
+                property_value_ = std::string(value);
+            else
+                unused(fmt::format("attribute '{}' of a property", name));
+        });
+    }
+
+    void end_property() {
+        if (!term_of(property_)) return unused("property '" + property_ + "'");
+        add_property(property_, property_value_ ? *property_value_ : text());
+    }
+
+    void begin_function(const std::string& element, const XmlAttributes& attributes) {
+        RawFunction function;
+        function.place = here();
+        attributes.each([&](std::string_view name, std::string_view value) {
+            const std::string plain = plain_name(name);
+            if (plain == "name")
+                function.name = value;
+            else if (plain == "domain")
+                function.domain = domain(value);
+            else if (plain == "origin")
+                function.origin = number(value, "origin");
+            else if (plain == "step")
+                function.step = number(value, "step");
+            else
+                unused(fmt::format("attribute '{}' of <{}>", name, element));
+        });
+        functions_.push_back(std::move(function));
+    }
+
+    Domain domain(std::string_view name) const {
+        const std::string plain = plain_name(name);
+        if (plain.empty() || plain == "polyline") return Domain::polyline;
+        if (plain == "length") return Domain::length;
+        if (plain == "uniform") return Domain::uniform;
+        fail(fmt::format("the domain of a function is polyline, length or uniform, not '{}'", name));
+    }
+
+    void begin_sample(const XmlAttributes& attributes) {
+        sample_.reset();
+        attributes.each([&](std::string_view name, std::string_view value) {
+            const std::string plain = plain_name(name);
+            if (plain == "value")
+                sample_ = std::string(value);
+            else if (plain == "position")
+                functions_.back().positions.push_back(number(value, "position"));
+            else
+                unused(fmt::format("attribute '{}' of <sample>", name));
+        });
+    }
+
+    void end_sample() {
+        RawFunction& function = functions_.back();
+        if (!term_of(function.name)) return;
+        function.samples.push_back(measured_number(sample_ ? *sample_ : text(), function.name));
+    }
+
+    /// <functions> without a name is a list of functions.
+    void end_function() {
+        RawFunction function = std::move(functions_.back());
+        functions_.pop_back();
+        const std::optional<Term> term = term_of(function.name);
+        if (!term) {
+            if (!function.name.empty()) notes_.unused("function '" + function.name + "'", function.place);
+            return;
+        }
+        if (!function.positions.empty() && function.positions.size() != function.samples.size()) {
+            fail(fmt::format("function '{}' has {} positions for {} samples", function.name, function.positions.size(),
+                             function.samples.size()));
+        }
+        function.name = plain_name(function.name);
+        function.term = *term;
+        if (!function.samples.empty()) root().functions.push_back(std::move(function));
+    }
+
+    static constexpr std::array<const char*, 1> no_attributes{nullptr};
+
+    measured::Notes& notes_;
+    RawFile file_;
+    std::vector<Scope> open_;
+    std::vector<std::size_t> open_roots_;
+    std::vector<RawFunction> functions_;  ///< that are open
+    std::optional<std::size_t> plant_;
+    std::string property_, defined_name_, bookkeeping_;
+    std::optional<std::string> property_value_, sample_;
+    Place bookkeeping_place_;
+    bool is_rsml_ = false;
+};
+
+}  // namespace
+
+RawFile read_raw(const std::string& text, const std::string& name, measured::Notes& notes) {
+    return RawReader(name, notes).read(text);
+}
+
+}  // namespace espalier::language::rsml
