@@ -12,9 +12,6 @@
 namespace espalier::language::measured {
 namespace {
 
-using lsystem::Alphabet;
-using lsystem::ModuleString;
-
 class Drawing {
 public:
     Drawing(const MeasuredPlants& plants, const DrawingLetters& letters)
