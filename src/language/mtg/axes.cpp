@@ -35,16 +35,12 @@ public:
         if (up_.empty()) up_ = graph.up;
         is_up_told_ = !up_.empty();
         if (!is_up_told_) up_ = "z";
-        try {
-            upright_ = measured::upright(up_);
-            find_scale();
-            find_successors();
-            find_plants();
-            units_ = units_of(graph, numbers(), options, name, notes);
-        } catch (const UserError& error) {
-            if (error.diagnostics().front().place.known()) throw;
-            throw UserError(Place{name, 1, 1}, error.diagnostics().front().message);
-        }
+        upright_ = measured::upright(up_);
+        find_scale();
+        find_successors();
+        find_plants();
+        units_ = units_of(graph, numbers(), options, name, notes);
+        base_ = upright_ * glm::dvec3(graph.origin[0], graph.origin[1], graph.origin[2]);
         tolerance_ = 1e-6 * extent_ * units_.length;
     }
 
@@ -75,7 +71,7 @@ private:
 
     std::optional<glm::dvec3> position(std::uint32_t v) const {
         const std::optional<glm::dvec3> at = raw(v);
-        return at ? std::optional(units_.length * *at) : std::nullopt;
+        return at ? std::optional(units_.length * *at + base_) : std::nullopt;
     }
 
     void find_scale() {
@@ -348,6 +344,7 @@ private:
     double extent_ = 0;     ///< in the file's unit
     double tolerance_ = 0;  ///< m
     glm::dmat3 upright_{1};
+    glm::dvec3 base_{0};  ///< m; what the file subtracted from its places
     int scale_ = -1;
     std::vector<std::uint32_t> successor_, heads_, plant_of_head_;
     std::vector<Spot> on_;  ///< of each entity: an axis of the document, and its node
@@ -363,10 +360,15 @@ private:
 
 MeasuredPlants read_axes(const std::string& text, const std::string& name, const MeasuredOptions& options) {
     measured::Notes notes(name);
-    const Graph graph = read(text, name, notes);
-    MeasuredPlants plants = Axes(graph, name, options, notes).plants();
-    plants.warnings = notes.warnings();
-    return plants;
+    try {
+        const Graph graph = read(text, name, notes);
+        MeasuredPlants plants = Axes(graph, name, options, notes).plants();
+        plants.warnings = notes.warnings();
+        return plants;
+    } catch (const UserError& error) {
+        if (error.diagnostics().front().place.known()) throw;
+        throw UserError(Place{name, 1, 1}, error.diagnostics().front().message);
+    }
 }
 
 }  // namespace espalier::language::mtg

@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "language/measured/cells.h"
 #include "language/measured/notes.h"
+#include "language/measured/units.h"
 #include "language/mtg/columns.h"
 #include "language/mtg/entity_code.h"
 
@@ -114,8 +115,15 @@ private:
     void note(std::string_view line) {
         if (!line.starts_with('#')) return;
         const std::vector<std::string> words = words_of(line, " \t\r");
-        if (words.size() == 4 && words[1] == "unit")
+        if (words.size() == 4 && words[1] == "unit") {
+            measured::metres_of_unit(words[3]);
             columns_.declare({words[2].substr(0, words[2].find(':')), "", words[3]});
+        }
+        if (words.size() == 5 && words[1] == "origin:") {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                graph_.origin[axis] = finite_number(words[axis + 2]).value_or(0);
+            }
+        }
         if (words.size() != 3) return;
         if (words[1] == "unit:") graph_.unit = words[2];
         if (words[1] == "up:") graph_.up = words[2];

@@ -43,9 +43,10 @@ struct Graph {
     std::vector<Measures> rows;
     std::map<std::uint32_t, std::string> plant_names;  ///< of vertices, from a column "plant"
     std::deque<std::string> labels;                    ///< that do not stand in the text
-    std::string unit = {}, up = {};                    ///< of lines "# unit: cm" and "# up: y"; "" if there is none
-    std::string diameter_unit = {};                    ///< of the columns of diameters
-    std::vector<std::string> columns;                  ///< all of them, as they are written
+    std::array<double, 3> origin{};    ///< of a line "# origin: x y z", m, which is added to coordinates
+    std::string unit = {}, up = {};    ///< of lines "# unit: cm" and "# up: y"; "" if there is none
+    std::string diameter_unit = {};    ///< of the columns of diameters
+    std::vector<std::string> columns;  ///< all of them, as they are written
     bool has_times = false;
 
     double measure(const Vertex& vertex, Measure which) const;

@@ -1,5 +1,7 @@
 #include "language/mtg/plant_units.h"
 
+#include "espalier/base/math.h"
+
 #include "base/text.h"
 #include "language/measured/units.h"
 
@@ -23,6 +25,8 @@ constexpr double tall = 8;              ///< m; of such a plant
 // or where the unit is known.
 constexpr double slender_enough = 25, slender_in_metres = 4, slender_if_known = 10;
 
+constexpr double ln10 = 2.302585092994046;
+
 struct Pair {
     double length, diameter;
     const char* words;
@@ -45,10 +49,10 @@ double distance_of(const Pair& pair, const PlantNumbers& numbers, bool is_known)
     const double ratio = numbers.extent * pair.length / (numbers.thickest * pair.diameter);
     if (pair.length == pair.diameter) {
         if (ratio >= (is_known ? slender_if_known : pair.length == 1 ? slender_in_metres : slender_enough)) return 0;
-        return 3 + std::abs(std::log10(ratio / slenderness));
+        return 3 + std::abs(math::log(ratio / slenderness) / ln10);
     }
     const bool has_thick_twigs = numbers.extent * pair.length > tall && numbers.thin * pair.diameter > thickest_twig;
-    return std::abs(std::log10(ratio / slenderness)) + (has_thick_twigs ? 1 : 0);
+    return std::abs(math::log(ratio / slenderness) / ln10) + (has_thick_twigs ? 1 : 0);
 }
 
 const Pair& likeliest(const PlantNumbers& numbers, std::optional<double> length) {

@@ -10,9 +10,9 @@ const Registered<NotationType> entry{
     {"swc", ".swc", "measured trees of points, the form of neurons (SWC, Cannon et al. 1998)",
      R"(Points with radii, of which each names the one before it, become the axiom of a model. An axis goes on to its farthest tip.
 
-  n type x y z radius parent  a line for each point; -1 is the parent of the first one of a plant; the type is not used
-  # unit: cm                  a line that says the unit: um (as without it, with a warning), mm, cm, dm, m or inch
-  # up: y                     a line that says what points upwards: z (as without it, with a warning), y, x, -z, -y or -x
+  row     n type x y z radius parent: a point; -1 is the parent of the first one of a plant; the type is not used
+  unit    um, with a warning; in a comment line, "# unit: cm": um, mm, cm, dm, m or inch
+  up      z, with a warning; in a comment line, "# up: y": z, y, x, -z, -y or -x
 
 Each axis ends with a module Tip(order), where a model made by `espalier translate` can go on to grow.
 R. C. Cannon, D. A. Turner, G. K. Pyapali, H. V. Wheal: An on-line archive of reconstructed hippocampal neurons. Journal of

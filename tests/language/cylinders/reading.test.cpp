@@ -1,7 +1,7 @@
 // Cylinder models: the tables of several programs, links to the bearer's axis, and malformed ones.
 #include "catch.h"
 #include "language/cylinders/dialect.h"
-#include "language/measured_text.h"
+#include "language/measured_file.h"
 
 #include <numbers>
 #include <string>
@@ -35,7 +35,7 @@ const std::string archi =
 }  // namespace
 
 TEST_CASE("cylinders: a branch begins on its bearer's surface, and each cylinder keeps its length", "[cylinders]") {
-    const MeasuredPlants plants = cylinder_table.plants_of(treeqsm);
+    const MeasuredPlants plants = cylinder_table.read(treeqsm);
     const MeasuredSummary summary = summary_of(plants);
     REQUIRE(plants.axes.size() == 2);
     CHECK(summary.axes_of_order == std::vector<std::size_t>{1, 1});
@@ -57,7 +57,7 @@ TEST_CASE("cylinders: programs are told apart by their headers", "[cylinders]") 
     CHECK(program(simple_forest) == "SimpleForest");
     CHECK(program(archi) == "aRchi");
     for (const std::string& text : {simple_forest, archi}) {
-        const MeasuredPlants plants = cylinder_table.plants_of(text);
+        const MeasuredPlants plants = cylinder_table.read(text);
         CHECK(plants.plants.size() == 1);
         CHECK(plants.axes.size() == 2);
         CHECK(plants.axes[1].order == 1);

@@ -1,6 +1,6 @@
 // Multiscale tree graphs as programs and people write them: abbreviations, scales, units, dates, several plants.
 #include "catch.h"
-#include "language/measured_text.h"
+#include "language/measured_file.h"
 
 #include <glm/geometric.hpp>
 
@@ -31,7 +31,7 @@ std::size_t tips_of_mtg(const MeasuredPlants& plants) {
 }
 
 double day_of_last(const std::string& text) {
-    return mtg_file.plants_of(text).axes.front().nodes.back().day;
+    return mtg_file.read(text).axes.front().nodes.back().day;
 }
 
 }  // namespace
@@ -40,7 +40,7 @@ TEST_CASE("MTG: ^ goes on from the last entity of its column and of its own scal
     const std::string text =
         mtg_tree("/P1/B1/S1\t\t0\t0\t1\n^<S2\t\t0\t0\t2\n^+B2\n\t/S1\t1\t0\t2\n\t^<S2\t2\t0\t2\n^<S3\t\t0\t0\t3\n");
     CHECK(mtg_file.summary(text).length == Approx(4.0));
-    CHECK(tips_of_mtg(mtg_file.plants_of(text)) == 2);
+    CHECK(tips_of_mtg(mtg_file.read(text)) == 2);
     // The same without a column for what is borne.
     const std::string in_one_column =
         mtg_tree("/P1/B1/S1\t\t0\t0\t1\n^<S2\t\t0\t0\t2\n^<S3\t\t0\t0\t3\n^+B2/S1\t\t1\t0\t3\n^<S2\t\t2\t0\t3\n");
@@ -50,7 +50,7 @@ TEST_CASE("MTG: ^ goes on from the last entity of its column and of its own scal
 TEST_CASE("MTG: an axis that bears another one goes on by its own entities", "[mtg]") {
     const std::string text =
         mtg_tree("/P1\n\t/B1/S1\t0\t0\t1\n\t^<S2\t0\t0\t2\n\t^+B2/S1\t1\t0\t2\n\t^+B3/S1\t1\t3\t2\n");
-    const MeasuredPlants plants = mtg_file.plants_of(text);
+    const MeasuredPlants plants = mtg_file.read(text);
     REQUIRE(plants.axes.size() == 3);
     CHECK(plants.axes[2].order == 2);
     CHECK(summary_of(plants).length == Approx(1 + 1 + 3));
@@ -58,18 +58,16 @@ TEST_CASE("MTG: an axis that bears another one goes on by its own entities", "[m
 
 TEST_CASE("MTG: a row of entities shares its features, and its last one has the coordinates", "[mtg]") {
     const std::string rest = "/P1/B1/S1\t\t0\t0\t0\t0.3\n";
-    const MeasuredPlants shared =
-        mtg_file.plants_of(mtg_tree(rest + "^<S2<<S5\t\t0\t0\t4\t0.2\n", "XX\tYY\tZZ\tdiameter"));
+    const MeasuredPlants shared = mtg_file.read(mtg_tree(rest + "^<S2<<S5\t\t0\t0\t4\t0.2\n", "XX\tYY\tZZ\tdiameter"));
     REQUIRE(shared.axes[0].nodes.size() == 5);
     CHECK(shared.axes[0].nodes[1].at.y == Approx(1));
     CHECK(shared.axes[0].nodes[1].diameter == 0.2);
     for (const char* const row : {"S2<.S5", "S2<.<S5"}) {
-        const auto last =
-            mtg_file.plants_of(mtg_tree(rest + "^<" + row + "\t\t0\t0\t4\t0.2\n", "XX\tYY\tZZ\tdiameter"));
+        const auto last = mtg_file.read(mtg_tree(rest + "^<" + row + "\t\t0\t0\t4\t0.2\n", "XX\tYY\tZZ\tdiameter"));
         CHECK(last.axes[0].nodes[3].diameter == 0.3);
         CHECK(last.axes[0].nodes[4].diameter == 0.2);
     }
-    const MeasuredPlants borne = mtg_file.plants_of(mtg_tree(rest + "^+S2++S4\t\t0\t0\t3\n"));
+    const MeasuredPlants borne = mtg_file.read(mtg_tree(rest + "^+S2++S4\t\t0\t0\t3\n"));
     REQUIRE(borne.axes.size() == 2);  // S2 and S3 are nowhere
     CHECK(borne.axes[1].label == "S4");
     CHECK(summary_of(borne).length == Approx(3));
@@ -80,7 +78,7 @@ TEST_CASE("MTG: rows with * measure an entity again", "[mtg]") {
         "/P1/B1/S1\t\t0\t0\t1\t0.1\t01/03/2007\n*\t\t\t\t\t0.2\t31/12/2007\n*\t\t\t\t\t0.3\t\n"
         "^<S2\t\t0\t0\t2\t0.1\t11/03/2007\n",
         "XX\tYY\tZZ\tdiameter\tDate");
-    const MeasuredPlants plants = mtg_file.plants_of(text);
+    const MeasuredPlants plants = mtg_file.read(text);
     REQUIRE(plants.axes[0].nodes.size() == 2);
     CHECK(plants.axes[0].nodes[0].diameter == 0.3);
     CHECK(plants.axes[0].nodes[0].day == 0);
@@ -101,14 +99,14 @@ TEST_CASE("MTG: dates have the forms that FEATURES declares, and count from the 
     CHECK(day_of_last(with("Day", "28/02", "02/03")) == 2);
     CHECK(day_of_last(with("Month", "12/2007", "02/2008")) == 62);
     CHECK(day_of_last(with("Hour", "28/02-06:00", "01/03-18:00")) == Approx(1.5));
-    CHECK_FALSE(mtg_file.plants_of(with("Date", "16/07/2007", "16/07/2007")).has_times);
+    CHECK_FALSE(mtg_file.read(with("Date", "16/07/2007", "16/07/2007")).has_times);
     CHECK_THAT(mtg_file.warnings(with("Date", "16/07/2007", "31/02/2007")), Catch::Contains("holds what is no date"));
 }
 
 TEST_CASE("MTG: coordinates of an axis are where its first piece begins", "[mtg]") {
     const std::string text =
         mtg_tree("/P1\n^/B1\t\t0\t0\t-1\n^/S1\t\t0\t0\t1\n^<S2\t\t0\t0\t2\n\t+B2\t0.5\t0\t2\n\t^/S1\t2\t0\t2\n");
-    const MeasuredPlants plants = mtg_file.plants_of(text);
+    const MeasuredPlants plants = mtg_file.read(text);
     const MeasuredSummary summary = summary_of(plants);
     CHECK(summary.length == Approx(2 + 1 + 1.5));
     // From the trunk's axis to where the branch begins is nobody's.
@@ -118,7 +116,7 @@ TEST_CASE("MTG: coordinates of an axis are where its first piece begins", "[mtg]
 
 TEST_CASE("MTG: a radius, and diameters at both ends", "[mtg]") {
     const auto diameter = [](const std::string& columns, const std::string& cells) {
-        return mtg_file.plants_of(mtg_tree("/P1/B1/S1\t\t0\t0\t1\t" + cells + "\n", "XX\tYY\tZZ\t" + columns))
+        return mtg_file.read(mtg_tree("/P1/B1/S1\t\t0\t0\t1\t" + cells + "\n", "XX\tYY\tZZ\t" + columns))
             .axes[0]
             .nodes[0]
             .diameter;
@@ -132,19 +130,19 @@ TEST_CASE("MTG: a radius, and diameters at both ends", "[mtg]") {
 TEST_CASE("MTG: coordinates in cm beside diameters in mm are told by their numbers", "[mtg]") {
     const std::string rows = "/P1/B1/S1\t\t0\t0\t10\t90\n^<S2\t\t5\t0\t310\t60\n^<S3\t\t0\t0\t420\t8\n";
     const std::string text = mtg_tree(rows, "XX\tYY\tZZ\tTopDia", "");
-    const MeasuredPlants plants = mtg_file.plants_of(text);
+    const MeasuredPlants plants = mtg_file.read(text);
     CHECK(plants.axes[0].nodes[2].at.y == Approx(4.2));
     CHECK(plants.axes[0].nodes[0].diameter == Approx(0.09));
     CHECK_THAT(mtg_file.warnings(text), Catch::Contains("says no unit; it is taken as cm, diameters mm"));
     // What the file says is not guessed: of a column, too.
     const std::string said = "# unit TopDia: mm\n" + mtg_tree(rows, "XX\tYY\tZZ\tTopDia", "cm");
-    CHECK(mtg_file.plants_of(said).axes[0].nodes[0].diameter == Approx(0.09));
+    CHECK(mtg_file.read(said).axes[0].nodes[0].diameter == Approx(0.09));
     CHECK(mtg_file.warnings(said).empty());
     // Nor is the unit of lengths, if the user says it.
     MeasuredOptions options;
     options.unit = "cm";
     CHECK_THAT(mtg_file.warnings(text, options), Catch::Contains("the unit of diameters is taken as 1 mm"));
-    CHECK(mtg_file.plants_of(text, options).axes[0].nodes[2].at.y == Approx(4.2));
+    CHECK(mtg_file.read(text, options).axes[0].nodes[2].at.y == Approx(4.2));
 }
 
 TEST_CASE("MTG: a plant of more than 150 m is told", "[mtg]") {
@@ -168,7 +166,7 @@ TEST_CASE("MTG: several plants, a scene, mtg_classes and columns that nothing de
         "/Scene0\n^/P1/B1/S1\t\t0\t0\t0\tash\n^<S2\t\t0\t0\t1\n/Scene0/P2/B1/S1\t\t5\t0\t0\n^<S2\t\t5\t0\t2\n"
         "^+T1\t\t6\t0\t2\n",
         "XX\tYY\tZZ\tplant");
-    const MeasuredPlants plants = mtg_file.plants_of(text);
+    const MeasuredPlants plants = mtg_file.read(text);
     REQUIRE(plants.plants.size() == 2);
     CHECK(plants.plants[0].label == "ash");
     CHECK(plants.plants[1].label == "P2");

@@ -1,6 +1,6 @@
 // Trees of points: axes, units, and what is no such file.
 #include "catch.h"
-#include "language/measured_text.h"
+#include "language/measured_file.h"
 
 using namespace espalier;
 
@@ -16,7 +16,7 @@ const std::string points_of_root =
 }  // namespace
 
 TEST_CASE("SWC: an axis goes on to its farthest tip", "[swc]") {
-    const MeasuredPlants plants = swc_file.plants_of(points_of_root);
+    const MeasuredPlants plants = swc_file.read(points_of_root);
     REQUIRE(plants.axes.size() == 2);
     CHECK(plants.axes[0].nodes.size() == 4);
     CHECK(plants.axes[0].nodes[3].at.y == Approx(-0.03));
@@ -28,7 +28,7 @@ TEST_CASE("SWC: an axis goes on to its farthest tip", "[swc]") {
 }
 
 TEST_CASE("SWC: points may stand in any order, and a point without parent begins a plant", "[swc]") {
-    const MeasuredPlants plants = swc_file.plants_of("7 0 0 0 1 1 3\n3 0 0 0 0 1 -1\n4 0 5 0 0 1 -1\n5 0 5 0 2 1 4\n");
+    const MeasuredPlants plants = swc_file.read("7 0 0 0 1 1 3\n3 0 0 0 0 1 -1\n4 0 5 0 0 1 -1\n5 0 5 0 2 1 4\n");
     CHECK(plants.plants.size() == 2);
     CHECK(summary_of(plants).length == Approx(3e-6));
 }
