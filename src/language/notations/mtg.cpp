@@ -18,13 +18,14 @@ above 0 is a plant of its own.
   diameter        of it, or diam, dia, TopDiameter, TopDia, or a radius; with BotDia the mean of both; without it that of the entity
                   before, at first 5 mm
   length          of the first entity of a trunk, which tells where that begins
-  birth           the day on which it appears; or Date, or a column of dates (DD/MM, DD/MM/YY, MM/YY, DD/MM-TIME), from the first on
+  birth           the day on which it appears, or Date, or a column of dates (DD/MM, DD/MM/YY, MM/YY, DD/MM-TIME), from the first on
   plant           a name of the plant
-  later rows      that begin with *: the entity above at a later date. Its last measures count, and its first date
   unit            in a comment line, "# unit: cm": of all lengths, m, dm, cm, mm, um or inch; "# unit TopDia: mm": of a column, which a
                   line of FEATURES may say behind the type, too
   up              in a comment line, "# up: y": what points upwards, z (as without it), y, x or one of these with -
   origin          in a comment line, "# origin: x y z": what is added to all coordinates, m
+
+A row that begins with * is the entity above at a later date: its last measures count, and its first date.
 
 Where a file says no unit, its numbers decide, with a warning: metres if the plant then is at most 150 m large and at least four
 times as large as thick; else the pair of units of lengths and of diameters with which it is sixty times as large as thick, or near.
