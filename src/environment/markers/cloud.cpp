@@ -274,7 +274,7 @@ const char* const cloud_help =
     file     none; a file of points, as of a scanned crown (.xyz, .txt, .csv, .asc or .pts: rows of x, y, z), or a mesh,
              whose corners they are (.ply, .obj)
     unit     "m"; of the file's lengths: "m", "dm", "cm", "mm", "um" or "inch"
-    up       "z", of meshes "y"; the file's axis that points upwards: "x", "y", "z", "-x", "-y" or "-z"
+    up       z of rows, y of meshes; the file's axis that points upwards: "x", "y", "z", "-x", "-y" or "-z"
     density  20 points/m3, > 0; how many points an ellipsoid or a solid has
     number   none, > 0; how many points in all, in place of the density
     seed     0, >= 0; another cloud of the same kind
