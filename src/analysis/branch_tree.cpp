@@ -41,8 +41,8 @@ struct Footing {
 
 }  // namespace
 
-std::vector<BranchTree> branch_trees(std::span<const FrameInternode> internodes,
-                                     std::span<const std::uint32_t> plants) {
+std::vector<BranchTree> branch_trees(std::span<const FrameInternode> internodes, std::span<const std::uint32_t> plants,
+                                     std::span<const double> uptakes) {
     std::unordered_map<std::uint32_t, std::size_t> tree_of;
     for (const std::uint32_t plant : plants) tree_of.emplace(plant, tree_of.size());
     std::vector<BranchTree> trees(tree_of.size());
@@ -61,6 +61,7 @@ std::vector<BranchTree> branch_trees(std::span<const FrameInternode> internodes,
         if (internode.base == internode.tip) continue;
         places[i].inside = trees[known->second].add(places[i].below, internode.base, internode.tip,
                                                     internode.base_radius, internode.tip_radius, internode.identity);
+        if (!uptakes.empty()) trees[known->second].uptakes.push_back(uptakes[i]);
     }
     return trees;
 }

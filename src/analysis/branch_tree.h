@@ -20,6 +20,7 @@ struct BranchTree {
     std::vector<double> base_radii, radii;  ///< where it begins, and at its tip
     std::vector<glm::dvec3> bases, tips;
     std::vector<std::uint64_t> modules;  ///< identities; pieces of one follow each other; 0: a module of its own
+    std::vector<double> uptakes;         ///< water, cm3/d; empty where that was not recorded
 
     std::size_t size() const { return parents.size(); }
     /// Appends an internode; returns its row.
@@ -41,8 +42,10 @@ struct Children {
 };
 
 /// One tree per plant, in the order of `plants`; internodes of others are left out. So are internodes without length
-/// (scars, buds that have not grown yet): what they bear stands on what they stand on.
-std::vector<BranchTree> branch_trees(std::span<const FrameInternode> internodes, std::span<const std::uint32_t> plants);
+/// (scars, buds that have not grown yet): what they bear stands on what they stand on. `uptakes` are those of the
+/// internodes, or none.
+std::vector<BranchTree> branch_trees(std::span<const FrameInternode> internodes, std::span<const std::uint32_t> plants,
+                                     std::span<const double> uptakes = {});
 
 /// Sums over the internodes: their lengths, and surfaces and volumes of the truncated cones they are.
 double total_length(const BranchTree& tree);

@@ -1,5 +1,7 @@
 #include "analysis/plant_analysis.h"
 
+#include "analysis/water.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -42,7 +44,8 @@ PlantAnalysis analyse(std::uint32_t plant, const BranchTree& tree, const Leaves&
 
 std::vector<PlantAnalysis> analyse(const FrameGeometry& geometry, std::span<const std::uint32_t> plants,
                                    const AnalysisOptions& options, const std::filesystem::path& run) {
-    const std::vector<BranchTree> trees = branch_trees(internodes_of(geometry), plants);
+    const std::vector<FrameInternode> internodes = internodes_of(geometry);
+    const std::vector<BranchTree> trees = branch_trees(internodes, plants, uptakes_of(geometry, internodes));
     const std::vector<Leaves> leaves = leaves_of(geometry, plants, options.leaf_symbols, run);
     std::vector<PlantAnalysis> result;
     for (std::size_t i = 0; i < plants.size(); ++i) result.push_back(analyse(plants[i], trees[i], leaves[i], options));

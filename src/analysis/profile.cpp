@@ -51,6 +51,7 @@ void share(const BranchTree& tree, std::size_t internode, double thickness, std:
         const double part = first == last ? 1 : (to - from) / (high - low);
         layers[i].length += part * tree.lengths[internode];
         layers[i].surface += part * tree.lengths[internode] * surface;
+        if (!tree.uptakes.empty()) layers[i].uptake += part * tree.uptakes[internode];
     }
 }
 
@@ -96,8 +97,13 @@ std::vector<Layer> merged_layers(const std::vector<Layer>& parts, double thickne
         whole.length += part.length;
         whole.surface += part.surface;
         whole.leaf_area += part.leaf_area;
+        whole.uptake += part.uptake;
     }
+    // NaN in any: nothing was recorded of this plant.
+    const bool has_uptake =
+        std::none_of(parts.begin(), parts.end(), [](const Layer& part) { return std::isnan(part.uptake); });
     for (Layer& layer : result) {
+        if (!has_uptake) layer.uptake = std::numeric_limits<double>::quiet_NaN();
         layer.density = density_of(layer.length, thickness, shadow);
         layer.ground_density = density_of(layer.length, thickness, ground);
     }
@@ -125,7 +131,10 @@ std::vector<Layer> layers(const BranchTree& tree, const Leaves& leaves, double t
         result[static_cast<std::size_t>(std::clamp(at, 0.0, count - 1))].leaf_area += leaf.area;
     }
     const double shadow = shadow_of(tree);
-    for (Layer& layer : result) layer.density = density_of(layer.length, thickness, shadow);
+    for (Layer& layer : result) {
+        layer.density = density_of(layer.length, thickness, shadow);
+        if (tree.uptakes.empty()) layer.uptake = std::numeric_limits<double>::quiet_NaN();
+    }
     return result;
 }
 

@@ -15,6 +15,7 @@ struct Layer {
     double length = 0;          ///< length of the internodes' pieces in it, m
     double surface = 0;         ///< surface of these pieces, m2
     double leaf_area = 0;       ///< area of the leaves whose middle is in it, m2
+    double uptake = 0;          ///< water that its roots take up, cm3/d; NaN where that was not recorded
     double density = 0;         ///< length per volume: of the layer's thickness times the area below, m/m3 = m-2
     double ground_density = 0;  ///< the same, over an area of ground that is given; NaN if none is
 };

@@ -4,6 +4,7 @@
 #include "espalier/base/file.h"
 
 #include "analysis/plant_analysis.h"
+#include "analysis/water.h"
 #include "base/csv_file.h"
 #include "base/json_text.h"
 #include "base/text.h"
@@ -80,6 +81,10 @@ RunAnalysis::RunAnalysis(const RecordedRun& run, std::span<const RecordedFrame* 
     tbb::parallel_for(std::size_t{0}, frames.size(),
                       [&](std::size_t i) { frames_[i] = Frame::read(run, *frames[i], plants, options); });
     align_layers(options);
+    if (!run.folder().empty() && is_readable(run.folder() / "statistics.csv")) {
+        stress_ = water_stress(run.statistics(), run.dt());
+        std::erase_if(stress_, [&](const WaterStress& each) { return !wanted.contains(each.plant); });
+    }
     std::vector<std::string> known;
     for (const Frame& frame : frames_) known.insert(known.end(), frame.symbols.begin(), frame.symbols.end());
     for (const std::string& symbol : options.leaf_symbols) {
@@ -122,14 +127,24 @@ RecordedTable RunAnalysis::table() const {
     return table;
 }
 
+RecordedTable RunAnalysis::stress() const {
+    RecordedTable table{{"plant", "first_time", "time", "transpired", "demanded"}, {}};
+    for (const WaterStress& each : stress_) {
+        table.rows.push_back(
+            {static_cast<double>(each.plant), each.first_time, each.time, each.transpired, each.demanded});
+    }
+    return table;
+}
+
 RecordedTable RunAnalysis::last_layers() const {
-    RecordedTable table{{"step", "plant", "height", "length", "surface", "leaf_area", "density", "ground_density"}, {}};
+    RecordedTable table{
+        {"step", "plant", "height", "length", "surface", "leaf_area", "density", "ground_density", "uptake"}, {}};
     if (frames_.empty()) return table;
     for (const PlantAnalysis& plant : frames_.back().plants) {
         for (const Layer& layer : plant.layers) {
             table.rows.push_back({static_cast<double>(frames_.back().step), static_cast<double>(plant.plant),
                                   (layer.from + layer.to) / 2, layer.length, layer.surface, layer.leaf_area,
-                                  layer.density, layer.ground_density});
+                                  layer.density, layer.ground_density, layer.uptake});
         }
     }
     return table;
@@ -196,7 +211,8 @@ Json layers_json(const PlantAnalysis& plant) {
                           {"surface", number(layer.surface)},
                           {"leaf_area", number(layer.leaf_area)},
                           {"density", number(layer.density)},
-                          {"ground_density", number(layer.ground_density)}});
+                          {"ground_density", number(layer.ground_density)},
+                          {"uptake", number(layer.uptake)}});
     }
     return layers;
 }
@@ -211,13 +227,23 @@ Json lengths_json(const PlantAnalysis& plant) {
 
 }  // namespace
 
+std::string RunAnalysis::stress_text() const {
+    std::string text = "plant,name,first_time,time,transpired,demanded\n";
+    for (const WaterStress& each : stress_) {
+        text +=
+            fmt::format("{},{},{},{},{},{}\n", each.plant, csv_text(names_[each.plant]), csv_number(each.first_time),
+                        csv_number(each.time), csv_number(each.transpired), csv_number(each.demanded));
+    }
+    return text;
+}
+
 void RunAnalysis::write_csv(const std::filesystem::path& folder) const {
     std::string names;
     for (const Measure& measure : measures()) names += (names.empty() ? "" : ",") + measure.description.name;
     CsvText measured(names);
     CsvText orders("order,streams,internodes,mean_length,mean_diameter");
     CsvText ramification("order,forks,column,part");
-    CsvText layers("from,to,length,surface,leaf_area,density,ground_density");
+    CsvText layers("from,to,length,surface,leaf_area,density,ground_density,uptake");
     CsvText internodes("from,to,internodes");
     for (const Frame& frame : frames_) {
         for (const PlantAnalysis& of : frame.plants) {
@@ -237,7 +263,7 @@ void RunAnalysis::write_csv(const std::filesystem::path& folder) const {
             }
             for (const Layer& layer : of.layers) {
                 layers.add(plant, layer.from, layer.to, layer.length, layer.surface, layer.leaf_area, layer.density,
-                           layer.ground_density);
+                           layer.ground_density, layer.uptake);
             }
             for (const LengthBin& bin : of.lengths.bins) {
                 internodes.add(plant, bin.from, bin.to, bin.internodes);
@@ -249,6 +275,7 @@ void RunAnalysis::write_csv(const std::filesystem::path& folder) const {
     write_text(folder / "ramification.csv", ramification.text());
     write_text(folder / "layers.csv", layers.text());
     write_text(folder / "internodes.csv", internodes.text());
+    if (!stress_.empty()) write_text(folder / "stress.csv", stress_text());
 }
 
 void RunAnalysis::write_json(const std::filesystem::path& folder) const {
@@ -269,7 +296,14 @@ void RunAnalysis::write_json(const std::filesystem::path& folder) const {
         }
         frames.push_back({{"step", frame.step}, {"time", number(frame.time)}, {"plants", std::move(measured)}});
     }
-    const Json json = {{"scene", scene_}, {"plants", std::move(plants)}, {"frames", std::move(frames)}};
+    Json json = {{"scene", scene_}, {"plants", std::move(plants)}, {"frames", std::move(frames)}};
+    for (const WaterStress& each : stress_) {
+        json["stress"].push_back({{"plant", each.plant},
+                                  {"first_time", number(each.first_time)},
+                                  {"time", number(each.time)},
+                                  {"transpired", number(each.transpired)},
+                                  {"demanded", number(each.demanded)}});
+    }
     write_text(folder / "analysis.json", json_text(json, 1) + "\n");
 }
 

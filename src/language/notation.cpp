@@ -6,9 +6,12 @@
 #include "language/plain_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <fstream>
+#include <functional>
 #include <optional>
+#include <set>
 
 namespace espalier::language {
 
@@ -36,17 +39,30 @@ MeasuredPlants measured(const NotationType& notation, const std::string& text, c
     return plants;
 }
 
+/// " .mtg .rsml"
+std::string extensions_of(const std::function<bool(const NotationType&)>& counts) {
+    std::set<std::string> extensions;
+    for (const auto& [name, known] : registered<NotationType>()) {
+        if (counts(*known)) extensions.insert(known->extension);
+    }
+    return extensions.empty() ? " none" : fmt::format(" {}", fmt::join(extensions, " "));
+}
+
 }  // namespace
 
 const NotationType* notation_of(const std::filesystem::path& path) {
     std::optional<std::string> head;
+    const NotationType* any = nullptr;
     for (const auto& [name, notation] : registered<NotationType>()) {
         if (path.extension() != notation->extension) continue;
-        if (!notation->recognises) return notation;
+        if (!notation->recognises) {
+            any = notation;
+            continue;
+        }
         if (!head) head = head_of(path);
         if (notation->recognises(*head)) return notation;
     }
-    return nullptr;
+    return any;
 }
 
 bool holds_measured_plants(const std::filesystem::path& path) {
@@ -57,10 +73,7 @@ bool holds_measured_plants(const std::filesystem::path& path) {
 MeasuredPlants read_measured_plants(const std::filesystem::path& path, const MeasuredOptions& options) {
     const NotationType* const notation = notation_of(path);
     if (notation && notation->measure) return measured(*notation, read_text(path), path, options);
-    std::string extensions;
-    for (const auto& [name, known] : registered<NotationType>()) {
-        if (known->measure) extensions += " " + known->extension;
-    }
+    const std::string extensions = extensions_of([](const NotationType& known) { return known.measure != nullptr; });
     throw UserError(fmt::format("{} is no file of measured plants: their extensions are{}", path.string(), extensions));
 }
 
@@ -75,10 +88,9 @@ TranslatedText translated(const NotationType& notation, const std::string& text,
 
 TranslatedText translated(const std::filesystem::path& path) {
     if (const NotationType* notation = notation_of(path)) return translated(*notation, read_text(path), path);
-    std::string extensions;
-    for (const auto& [name, known] : registered<NotationType>()) extensions += " " + known->extension;
-    throw UserError(fmt::format("{} is in no notation that can be translated; their extensions are{}", path.string(),
-                                extensions.empty() ? " none" : extensions));
+    const std::string extensions = extensions_of([](const NotationType&) { return true; });
+    throw UserError(
+        fmt::format("{} is in no notation that can be translated; their extensions are{}", path.string(), extensions));
 }
 
 }  // namespace espalier::language

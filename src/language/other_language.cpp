@@ -128,6 +128,8 @@ constexpr std::array notations{
                  return begins(text, "<") && has(text.substr(0, 2000), "<rsml");
              },
              "this is a root system in RSML: a file whose name ends in .rsml"},
+    Notation{[](std::string_view text, const std::filesystem::path&) { return begins(text, "DGF"); },
+             "this is a grid of Dune: a root system in it is a file whose name ends in .dgf"},
     Notation{[](std::string_view text, const std::filesystem::path&) {
                  return begins(text, "<!DOCTYPE html") || begins(text, "<!doctype html") || begins(text, "<html");
              },

@@ -137,6 +137,7 @@ TEST_CASE("files of other programs are named, and what to write in their place",
               .find("the notation of encyclopedias") != std::string::npos);
     CHECK(said("[simulation]\nsteps = 3\n[[plant]]\nmodel = \"a.l\"\n").find("this is a scene") != std::string::npos);
     CHECK(said("<?xml version=\"1.0\"?>\n<rsml></rsml>\n").find(".rsml") != std::string::npos);
+    CHECK(said("DGF\nVertex\n0 0 0\n#\n").find(".dgf") != std::string::npos);
     CHECK(said("<!DOCTYPE html>\n<html>lsystem</html>\n").find("a web page") != std::string::npos);
     CHECK(said("{\"axiom\": \"F\", \"rules\": {\"F\": \"FF\"}}\n").find("this is JSON") != std::string::npos);
     CHECK(said("{\n  \"axiom\": \"F\"\n}\n").find("this is JSON") != std::string::npos);

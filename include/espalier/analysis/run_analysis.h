@@ -28,6 +28,8 @@ struct MeasureDescription {
 };
 const std::vector<MeasureDescription>& measure_descriptions();
 
+struct WaterStress;
+
 class RunAnalysis {
 public:
     /// Measures `plants` (their numbers) in `frames` of `run`. Each thread holds one file of a frame at a time. Throws
@@ -41,12 +43,17 @@ public:
     /// A row per step and plant: step, time, plant, then the measures. NaN where a plant has none.
     RecordedTable table() const;
 
+    /// Of plants that transpire, a row each: plant, first_time (the end of the first step in which it transpired less
+    /// than its demand; NaN: none), time (of all such steps), transpired, demanded (sums over the run). Of all steps of
+    /// the run, whatever frames there are.
+    RecordedTable stress() const;
+
     /// The layers of the last frame's plants: step, plant, height (of the layer's middle), length, surface, leaf_area,
-    /// density, ground_density. All plants of all frames have the same layers.
+    /// density, ground_density, uptake (cm3/d). All plants of all frames have the same layers.
     RecordedTable last_layers() const;
 
-    /// analysis.csv (the table), orders.csv, ramification.csv, layers.csv and internodes.csv, each complete or not at
-    /// all. Throws RunError.
+    /// analysis.csv (the table), orders.csv, ramification.csv, layers.csv, internodes.csv and, where plants transpire,
+    /// stress.csv, each complete or not at all. Throws RunError.
     void write_csv(const std::filesystem::path& folder) const;
     /// analysis.json: all of it in one. Throws RunError.
     void write_json(const std::filesystem::path& folder) const;
@@ -54,12 +61,14 @@ public:
 private:
     struct Frame;
     void align_layers(const AnalysisOptions& options);
+    std::string stress_text() const;
 
     std::string scene_;
     double ground_ = 0;
     std::vector<std::string> names_;     ///< of all plants, by number
     std::vector<RecordedPlant> plants_;  ///< those that are measured
     std::vector<Frame> frames_;
+    std::vector<WaterStress> stress_;
 };
 
 }  // namespace espalier::analysis

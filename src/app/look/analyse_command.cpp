@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 constexpr const char* over_steps[] = {"tips",        "strahler",          "branching_ratio", "pipe_exponent",
                                       "area_ratio",  "fractal_dimension", "leaf_area_index", "crown_volume",
                                       "asymmetry_x", "asymmetry_z",       "length",          "depth_in_ground"};
-constexpr const char* over_heights[] = {"length", "density", "ground_density", "leaf_area"};
+constexpr const char* over_heights[] = {"length", "density", "ground_density", "leaf_area", "uptake"};
 
 /// "crown volume (convex hull) (m³)"
 std::string title_of(const MeasureDescription& measure) {
@@ -65,6 +65,7 @@ ChartPage page_of(const RecordedRun& run, RecordedTable table, std::span<const c
         options.titles["height"] = "height (m)";
         options.titles["length"] = "length in the layer (m)";
         options.titles["leaf_area"] = "leaf area in the layer (m²)";
+        options.titles["uptake"] = "uptake in the layer (cm³/d)";
     }
     const PlottedTable plotted{run.scene(), std::move(table), run.plants()};
     return options.quantities.empty() ? ChartPage{} : chart_page({&plotted, 1}, options);
@@ -99,6 +100,25 @@ void print_last(const RecordedRun& run, const RecordedTable& table) {
         fmt::print("{}\n", line);
     }
     if (shown < rows.size()) fmt::print("... and {} more plants\n", rows.size() - shown);
+}
+
+/// "first stress of root at 31.5 day, 12% of its demand was not met"
+void print_stress(const RecordedRun& run, const RecordedTable& stress) {
+    for (const std::vector<double>& row : stress.rows) {
+        const auto plant = static_cast<std::uint32_t>(row[stress.column("plant")]);
+        const double first = row[stress.column("first_time")];
+        const double lacked = 1 - row[stress.column("transpired")] / row[stress.column("demanded")];
+        std::string name = fmt::format("plant {}", plant);
+        for (const RecordedPlant& each : run.plants()) {
+            if (each.number == plant && !each.name.empty()) name = each.name;
+        }
+        if (std::isnan(first)) {
+            fmt::print("{} transpired as much as it could at all times\n", name);
+        } else {
+            fmt::print("{} lacked water first at {} {}, in all {:.3g}% of its demand\n", name, format_general(first),
+                       run.time_unit(), 100 * lacked);
+        }
+    }
 }
 
 class Analyse final : public Command {
@@ -137,8 +157,8 @@ public:
         profile_.exclude({"--plant", "--format", "--leaf", "--layer", "--range", "--area", "--voxel"});
         app().footer(
             R"(Writes analysis.csv with one row per step and plant, orders.csv (streams of each Strahler order), ramification.csv,
-layers.csv (lengths and leaf areas by height or depth) and internodes.csv (lengths of internodes), or analysis.json with all
-of these. Also draws analysis.png, the main measures over the steps, and layers.png, the layers of the last step.
+layers.csv (lengths, leaf areas and, where timeline.organs has an uptake, that, by height or depth), internodes.csv (lengths of
+internodes) and, of plants that transpire, stress.csv (when they first lacked water), or analysis.json with all of these. Also draws analysis.png, the main measures over the steps, and layers.png, the layers of the last step.
 With --field, writes water-y.csv with mean, deviation, minimum and maximum of each layer of voxels, and draws water-y.png.
 Examples:
   espalier analyse output/two-trees
@@ -199,6 +219,7 @@ private:
         format_ == "json" ? analysis.write_json(folder) : analysis.write_csv(folder);
         const RecordedTable table = analysis.table();
         if (!table.rows.empty()) print_last(run, table);
+        print_stress(run, analysis.stress());
         fmt::print("{}\n", (folder / "").string());
         const bool several_steps = !table.rows.empty() && table.rows.front()[0] != table.rows.back()[0];
         if (several_steps) {

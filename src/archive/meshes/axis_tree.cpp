@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <tuple>
 
 namespace espalier::archive {
@@ -60,6 +61,51 @@ bool shares_ring(const FrameInternode& branch, const FrameInternode& bearer, con
            glm::dot(direction(branch), ring) >= least_cosine;
 }
 
+bool stands_beside(const FrameInternode& first, const FrameInternode& bearer) {
+    return first.base == bearer.base && first.base != bearer.tip && first.order <= bearer.order;
+}
+
+/// The internode of an axis with the end that is nearest to a place.
+InternodeIndex nearest_internode(const AxisTree& tree, const AxisTree::Axis& axis, const glm::vec3& place) {
+    InternodeIndex nearest = axis.first;
+    float least = glm::distance(tree.internodes[nearest].base, place);
+    for (InternodeIndex i = axis.first; i < axis.end; ++i) {
+        const float distance = glm::distance(tree.internodes[i].tip, place);
+        if (distance < least) nearest = i, least = distance;
+    }
+    return nearest;
+}
+
+/// What stands on the very base of an axis is drawn before that: the first internode of the next axis of a lower order,
+/// if it begins there, too.
+InternodeIndex bearer_drawn_later(const AxisTree& tree, AxisIndex number) {
+    const FrameInternode& first = tree.internodes[tree.axes[number].first];
+    for (AxisIndex i = number.next(); i < tree.axes.next(); ++i) {
+        const FrameInternode& other = tree.internodes[tree.axes[i].first];
+        if (other.plant != first.plant) break;
+        if (other.order < first.order) return other.base == first.base ? tree.axes[i].first : InternodeIndex();
+    }
+    return {};
+}
+
+/// Of the last axis of a lower order, the internode whose end is nearest; `last_of_order` are the axes before.
+InternodeIndex linked_bearer(const AxisTree& tree, AxisIndex number, const std::vector<AxisIndex>& last_of_order) {
+    const FrameInternode& first = tree.internodes[tree.axes[number].first];
+    std::size_t order = std::min<std::size_t>(first.order, last_of_order.size());
+    while (order > 0 && last_of_order[order - 1].is_none()) --order;
+    return order > 0 ? nearest_internode(tree, tree.axes[last_of_order[order - 1]], first.base) : InternodeIndex();
+}
+
+/// Whether an axis is another, or is borne by it, directly or not.
+bool stands_on(const AxisTree& tree, const RowsOf<FrameInternode, AxisIndex>& axis_of, AxisIndex axis,
+               AxisIndex other) {
+    while (axis != other) {
+        if (tree.axes[axis].bearer.is_none()) return false;
+        axis = axis_of[tree.axes[axis].bearer];
+    }
+    return true;
+}
+
 }  // namespace
 
 std::vector<AxisIndex> AxisTree::trunks() const {
@@ -89,6 +135,35 @@ AxisTree axis_tree(const FrameGeometry& geometry, const MeshOptions& options) {
         tree.axes_borne.emplace_back();
     }
     return tree;
+}
+
+void settle_bearers(AxisTree& tree) {
+    RowsOf<FrameInternode, AxisIndex> axis_of;
+    for (AxisIndex i(0); i < tree.axes.next(); ++i) {
+        AxisTree::Axis& axis = tree.axes[i];
+        const FrameInternode& first = tree.internodes[axis.first];
+        while (!axis.bearer.is_none() && stands_beside(first, tree.internodes[axis.bearer])) {
+            axis.bearer = tree.axes[axis_of[axis.bearer]].bearer;
+        }
+        for (InternodeIndex k = axis.first; k < axis.end; ++k) axis_of.push_back(i);
+    }
+    std::vector<AxisIndex> last_of_order;  // of the plant so far
+    for (AxisIndex i(0); i < tree.axes.next(); ++i) {
+        AxisTree::Axis& axis = tree.axes[i];
+        const FrameInternode& first = tree.internodes[axis.first];
+        if (i > AxisIndex(0) && tree.axes[i.before()].plant != axis.plant) last_of_order.clear();
+        const auto hang_on = [&](InternodeIndex bearer) {
+            if (!bearer.is_none() && !stands_on(tree, axis_of, axis_of[bearer], i)) axis.bearer = bearer;
+        };
+        if (axis.bearer.is_none()) hang_on(bearer_drawn_later(tree, i));
+        if (axis.bearer.is_none() && first.bearer.is_none()) hang_on(linked_bearer(tree, i, last_of_order));
+        last_of_order.resize(first.order + std::size_t(1));
+        last_of_order.back() = i;
+    }
+    for (InternodeIndex k(0); k < tree.internodes.next(); ++k) tree.axes_borne[k].clear();
+    for (AxisIndex i(0); i < tree.axes.next(); ++i) {
+        if (!tree.axes[i].bearer.is_none()) tree.axes_borne[tree.axes[i].bearer].push_back(i);
+    }
 }
 
 std::vector<AxisPath> axis_paths(const FrameGeometry& geometry, const MeshOptions& options) {

@@ -48,4 +48,9 @@ std::vector<AxisPath> axis_paths(const FrameGeometry& geometry, const MeshOption
 /// Returns the tree of the plants asked for.
 AxisTree axis_tree(const FrameGeometry& geometry, const MeshOptions& options);
 
+/// Bearers as files that nest axes need them. Axes of one order that begin together stand side by side, on what bears
+/// the first of them. An axis of a higher order that begins beside all others hangs by a link on the nearest end of an
+/// internode of the axis before it whose order is lower.
+void settle_bearers(AxisTree& tree);
+
 }  // namespace espalier::archive

@@ -143,6 +143,7 @@ public:
         for (std::size_t i = 0; i < roots_.size(); ++i) {
             if (plants_[i] >= transpired_.size()) continue;
             Transpired& plant = transpired_[plants_[i]];
+            roots_[i].pass(days, weight, plant.rate);
             plant.rate = weight * roots_[i].water().transpiration() + (1 - weight) * plant.rate;
             plant.in_step += plant.rate * days;
             plant.total += plant.rate * days;
@@ -336,7 +337,7 @@ Fields: `name`, uptake (1/d); `name.length_density` (cm/cm3). Statistics of each
 means of the step), total (cm3), collar (pressure head, cm, the lowest in the step), depth of the uptake (cm), conductance of the root system (Krs,
 cm2/d), suf_depth (mean depth of the uptake from uniform soil, cm).
 
-Organs: head and soil, the pressure heads in each internode and in the soil at its surface (cm), uptake (cm3/d), fraction of the
+Organs: head and soil, the pressure heads in each internode and in the soil at its surface (cm), uptake and mean_uptake of the step (cm3/d), fraction of the
 uptake from uniform soil, radial (1/d) and axial (cm3/d).)";
 
 const Registered<ProcessType> entry{{"root-water",

@@ -20,6 +20,9 @@ const std::vector<RootQuantity>& known() {
     static const std::vector<RootQuantity> all{
         {{"head", "cm", "pressure head in the root"}, false, water(&PlantWater::xylem)},
         {{"uptake", "cm3/d", "water that the root takes from the soil"}, true, water(&PlantWater::uptake)},
+        {{"mean_uptake", "cm3/d", "the same, as the mean of the step"},
+         true,
+         [](const PlantUptake& plant, std::size_t piece) { return plant.mean_uptake(piece); }},
         {{"soil", "cm", "pressure head of the soil at the root's surface"}, false, water(&PlantWater::surface)},
         {{"fraction", "", "of the uptake from uniform soil (SUF)"}, true, water(&PlantWater::fractions)},
         {{"radial", "1/d", "conductivity of the root's surface"},

@@ -78,6 +78,28 @@ void PlantUptake::solve(std::span<const SoilPoint> points, UptakeModel model, co
 
 /// Newton's method: around each piece the flow through soil and root wall is replaced by its tangent, and the tree of
 /// these is solved exactly.
+void PlantUptake::pass(double days, double weight, double before) {
+    const std::vector<double>& now = water_.uptake;
+    if (rates_.size() != now.size()) {
+        // The step begins with other pieces than the last one had: they share what the plant took up.
+        const double sum = water_.transpiration();
+        rates_ = now;
+        if (sum > 0) {
+            for (double& rate : rates_) rate *= before / sum;
+        }
+    }
+    days_ += days;
+    taken_.resize(now.size(), 0);
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        rates_[i] = weight * now[i] + (1 - weight) * rates_[i];
+        taken_[i] += rates_[i] * days;
+    }
+}
+
+double PlantUptake::mean_uptake(std::size_t piece) const {
+    return days_ > 0 ? taken_[piece] / days_ : water_.uptake[piece];
+}
+
 void PlantUptake::solve_network(std::span<const SoilPoint> points, const RootCollar& collar, double demand,
                                 double held_head) {
     const std::size_t count = radial_.size();

@@ -48,6 +48,11 @@ public:
     /// Solves for `points`, the soil's state, to a residual of 1e-9 of the flow; `demand` in cm3/d, or a held head.
     void solve(std::span<const SoilPoint> points, UptakeModel model, const RootCollar& collar,
                const FeddesHeads& feddes, double demand, double held_head);
+    /// So many days have passed, in which the roots took up `weight` times what was solved last and the rest times what
+    /// they took up before; `before`: that of the plant, cm3/d.
+    void pass(double days, double weight, double before);
+    /// The mean uptake of a piece since the step began, cm3/d; before any time has passed, that of the moment.
+    double mean_uptake(std::size_t piece) const;
 
 private:
     void solve_network(std::span<const SoilPoint> points, const RootCollar& collar, double demand, double held_head);
@@ -63,6 +68,9 @@ private:
     HydraulicTree tree_;
     RootFlow flow_;
     PlantWater water_;
+    std::vector<double> rates_;  ///< at which each piece took up water last, cm3/d
+    std::vector<double> taken_;  ///< by each piece in the step, cm3
+    double days_ = 0;            ///< of the step that have passed
     bool begun_ = false;
 };
 

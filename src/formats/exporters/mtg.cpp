@@ -45,18 +45,29 @@ private:
         return axis.bearer.next() == end_of_[axis.bearer];
     }
 
-    // Each axis stands one column to the right of what bears it, unless it goes on.
+    // Each axis stands one column to the right of what bears it, unless it goes on. What bears it may be drawn later.
     Columns columns() {
-        Columns of_axis;
-        RowsOf<FrameInternode, std::uint32_t> of_internode(tree_.internodes.size());
+        constexpr std::uint32_t unknown = 0xFFFFFFFF;
+        RowsOf<FrameInternode, AxisIndex> axis_of(tree_.internodes.size());
         end_of_ = RowsOf<FrameInternode, InternodeIndex>(tree_.internodes.size());
-        for (const AxisTree::Axis& axis : tree_.axes) {
-            for (InternodeIndex i = axis.first; i < axis.end; ++i) end_of_[i] = axis.end;
-        }
         for (AxisIndex number(0); number < tree_.axes.next(); ++number) {
             const AxisTree::Axis& axis = tree_.axes[number];
-            of_axis.push_back(axis.bearer.is_none() ? 0 : of_internode[axis.bearer] + (follows(number) ? 0 : 1));
-            for (InternodeIndex i = axis.first; i < axis.end; ++i) of_internode[i] = of_axis.back();
+            for (InternodeIndex i = axis.first; i < axis.end; ++i) {
+                end_of_[i] = axis.end;
+                axis_of[i] = number;
+            }
+        }
+        Columns of_axis(tree_.axes.size(), unknown);
+        std::vector<AxisIndex> path;
+        for (AxisIndex number(0); number < tree_.axes.next(); ++number) {
+            path.assign(1, number);
+            while (of_axis[path.back()] == unknown && !tree_.axes[path.back()].bearer.is_none()) {
+                path.push_back(axis_of[tree_.axes[path.back()].bearer]);
+            }
+            if (of_axis[path.back()] == unknown) of_axis[path.back()] = 0;
+            for (std::size_t k = path.size() - 1; k-- > 0;) {
+                of_axis[path[k]] = of_axis[path[k + 1]] + (follows(path[k]) ? 0 : 1);
+            }
         }
         return of_axis;
     }
@@ -178,7 +189,8 @@ public:
 
     void write(const ExportJob& job) const override {
         for (const RecordedFrame* frame : job.frames) {
-            const AxisTree tree = axis_tree(job.run.geometry(*frame), job.options);
+            AxisTree tree = axis_tree(job.run.geometry(*frame), job.options);
+            settle_bearers(tree);
             const auto path = job.path(*frame, extension());
             write_text(path, MtgText(job, tree).text());
             job.report({path, 0, 0, tree.internodes.size(), "internodes"});

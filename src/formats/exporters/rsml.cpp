@@ -113,13 +113,14 @@ private:
     /// The node of the bearing axis, from 0, that an axis stands on: the tip of its bearer, or where both begin.
     std::int32_t node_of_bearer(const AxisTree::Axis& axis) const {
         const InternodeIndex bearer = axis.bearer;
-        const auto bearing = std::find_if(tree_.axes.begin(), tree_.axes.end(), [&](const AxisTree::Axis& other) {
-            return other.first <= bearer && bearer < other.end;
-        });
+        const auto behind = std::upper_bound(
+            tree_.axes.begin(), tree_.axes.end(), bearer,
+            [](InternodeIndex internode, const AxisTree::Axis& other) { return internode < other.first; });
+        const AxisTree::Axis& bearing = *std::prev(behind);
         const glm::vec3 base = tree_.internodes[axis.first].base;
         const FrameInternode& internode = tree_.internodes[bearer];
         const bool at_tip = glm::distance(base, internode.tip) <= glm::distance(base, internode.base);
-        return bearer.number - bearing->first.number + (at_tip ? 1 : 0);
+        return bearer.number - bearing.first.number + (at_tip ? 1 : 0);
     }
 
     void add_geometry(const AxisTree::Axis& axis) {
@@ -160,7 +161,8 @@ public:
 
     void write(const ExportJob& job) const override {
         for (const RecordedFrame* frame : job.frames) {
-            const AxisTree tree = axis_tree(job.run.geometry(*frame), job.options);
+            AxisTree tree = axis_tree(job.run.geometry(*frame), job.options);
+            settle_bearers(tree);
             const auto path = job.path(*frame, extension());
             write_text(path, RsmlText(job, *frame, tree).text());
             job.report({path, 0, 0, tree.axes.size(), "axes"});
@@ -174,7 +176,9 @@ const Registered<ExporterType> entry{
      "time; laterals nested in the axis that bears them; length, birth, order, identity and the bearing axis's node as "
      "properties.\n"
      "For CPlantBox, --up z.\n"
-     "Lost: organs and surfaces, parameters",
+     "An axis that begins beside the one that bears it hangs on the nearest of its nodes. Read again, it is the same "
+     "plant.\n"
+     "Lost: organs and surfaces, parameters; a gap within an axis, which becomes two",
      construct<Rsml>}};
 
 }  // namespace

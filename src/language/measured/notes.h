@@ -19,7 +19,7 @@ public:
     /// A guess, or a loss, in a sentence; the same sentence is said once.
     void warn(const std::string& sentence, const Place& place = {}, std::size_t places = 1);
 
-    /// In the order of the first places of each.
+    /// In the order of the first places of each; of those that are unused a hundred at most, and how many more.
     std::vector<Diagnostic> warnings() const;
 
 private:
@@ -34,6 +34,7 @@ private:
     std::string file_;
     std::vector<Kind> kinds_;
     std::map<std::string, std::size_t> number_of_;
+    std::size_t unused_kinds_ = 0, further_ = 0;
 };
 
 }  // namespace espalier::language::measured

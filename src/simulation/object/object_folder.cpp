@@ -177,7 +177,10 @@ void take_colours(const fs::path& folder, ObjectFiles& object) {
 
 void take_by_extension(const fs::path& folder, ObjectFiles& object) {
     std::vector<std::string> extensions{".l"};
-    for (const auto& [name, notation] : registered<NotationType>()) extensions.push_back(notation->extension);
+    for (const auto& [name, notation] : registered<NotationType>()) {
+        const bool is_known = std::find(extensions.begin(), extensions.end(), notation->extension) != extensions.end();
+        if (!is_known) extensions.push_back(notation->extension);
+    }
     object.model = only_file(folder, extensions, fmt::format(": espalier run {}/MODEL", folder.string()));
     if (object.model.empty()) {
         throw UserError(fmt::format("{} holds no model: neither a file '{}' nor one that ends in {}", folder.string(),

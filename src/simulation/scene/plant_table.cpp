@@ -170,10 +170,13 @@ public:
         const std::string name = read_name(table, source_of(*plant.model));
         table.reject_unread();
         const std::size_t number = places.size() * individuals.size();
+        const bool are_labelled = places.size() == 1 && have_different_labels(individuals);
         for (std::size_t i = 0; i < number; ++i) {
             const Individual& individual = individuals[i % individuals.size()];
             plant.model = individual.model;
-            plant.name = number == 1 ? name : fmt::format("{}-{}", name, i + 1);
+            plant.name = are_labelled  ? fmt::format("{}-{}", name, individual.label)
+                         : number == 1 ? name
+                                       : fmt::format("{}-{}", name, i + 1);
             plant.stream = stream + static_cast<std::uint32_t>(i);
             plant.turtle.pose.position = places[i / individuals.size()] + individual.offset;
             plants_.push_back(plant);
@@ -185,7 +188,14 @@ private:
     struct Individual {
         std::shared_ptr<const CompiledModel> model;
         glm::dvec3 offset{0};  ///< m; from the place of the table's plant
+        std::string label = {};
     };
+
+    static bool have_different_labels(const std::vector<Individual>& individuals) {
+        std::set<std::string> labels;
+        for (const Individual& each : individuals) labels.insert(each.label);
+        return individuals.size() > 1 && labels.size() == individuals.size() && !labels.contains("");
+    }
 
     /// `plant` gets the model of the first.
     std::vector<Individual> read_individuals(const Settings& table, const Defines& defines, Plant& plant) {
@@ -215,7 +225,8 @@ private:
     /// Nobody wrote its model, so that nothing in it is looked at twice.
     Individual made(const MeasuredPlants& plants, std::optional<std::size_t> plant, const ReadOptions& options,
                     const glm::dvec3& offset) {
-        Individual individual{compile(measured_model(plants, plant, options)), offset};
+        Individual individual{compile(measured_model(plants, plant, options)), offset,
+                              plant ? plants.plants[*plant].label : ""};
         reviewed_.insert(individual.model.get());
         return individual;
     }

@@ -358,6 +358,14 @@ TEST_CASE("RSML: every element, function and property that is not used is named 
     CHECK_THAT(warnings, !Contains("<name>"));
 }
 
+TEST_CASE("RSML: thousands of things that are not used end in a hundred lines", "[rsml]") {
+    std::string properties;
+    for (int i = 0; i < 2000; ++i) properties += "<p" + std::to_string(i) + ">1</p" + std::to_string(i) + ">";
+    const auto plants = tap_with("<properties>" + properties + "</properties>");
+    CHECK(plants.warnings.size() == 102);  // with that of the rest, and of the diameter
+    CHECK_THAT(warnings_of(plants), Contains("more is not used, in 1900 places"));
+}
+
 TEST_CASE("RSML: lengths that the writer measured are compared with the lines", "[rsml]") {
     CHECK_THAT(warnings_of(tap_with("<properties><length>20.1</length></properties>")), !Contains("length"));
     CHECK_THAT(warnings_of(tap_with("<properties><length>40</length></properties>")),
