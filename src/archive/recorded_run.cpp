@@ -237,6 +237,10 @@ void RecordedRun::take(const std::string& record) {
         }
         if (run.contains("units")) units_ = run["units"].get<std::map<std::string, std::string>>();
         ground_area_ = ground_area_of(run);
+        if (run.contains("origin")) {
+            const auto origin = run["origin"].get<std::array<double, 3>>();
+            origin_ = glm::dvec3(origin[0], origin[1], origin[2]);
+        }
         if (run.contains("view")) view_ = view_of(file, run["view"]);
         if (run.contains("materials")) materials_ = materials_of(file, run["materials"]);
     } catch (const Json::exception& error) {

@@ -7,11 +7,6 @@
 #include <expat.h>
 
 namespace espalier {
-namespace {
-
-constexpr int most_depth = 200;
-
-}  // namespace
 
 bool XmlAttributes::has(const char* name) const {
     for (const char* const* at = first_; *at; at += 2) {
@@ -42,8 +37,8 @@ struct XmlReader::Events {
     }
     static void begin(void* self, const char* element, const char** attributes) {
         guarded(self, [&](XmlReader& reader) {
-            if (++reader.depth_ > most_depth) {
-                reader.fail(fmt::format("elements are nested deeper than {}", most_depth));
+            if (++reader.depth_ > reader.most_depth_) {
+                reader.fail(fmt::format("elements are nested deeper than {}", reader.most_depth_));
             }
             reader.begin(element, XmlAttributes(attributes));
             reader.text_.clear();
@@ -65,7 +60,8 @@ struct XmlReader::Events {
     }
 };
 
-XmlReader::XmlReader(std::string name) : name_(std::move(name)), parser_(XML_ParserCreate(nullptr), XML_ParserFree) {
+XmlReader::XmlReader(std::string name, int most_depth)
+    : name_(std::move(name)), parser_(XML_ParserCreate(nullptr), XML_ParserFree), most_depth_(most_depth) {
     XML_SetUserData(parser_.get(), this);
     XML_SetElementHandler(parser_.get(), Events::begin, Events::end);
     XML_SetCharacterDataHandler(parser_.get(), Events::characters);

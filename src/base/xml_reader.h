@@ -30,7 +30,7 @@ private:
     const char* const* first_;  // of expat: names and values in turn, then null
 };
 
-/// Reads a document element by element. Entities are refused, and elements nested deeper than 200.
+/// Reads a document element by element. Entities are refused, and elements nested deeper than a number.
 class XmlReader {
 public:
     XmlReader(const XmlReader&) = delete;
@@ -38,7 +38,7 @@ public:
 
 protected:
     /// `name` stands in messages.
-    explicit XmlReader(std::string name);
+    explicit XmlReader(std::string name, int most_depth = 200);
     virtual ~XmlReader();
 
     /// Calls begin() and end() for each element in turn. Throws UserError with the place of a mistake, and what they
@@ -60,7 +60,7 @@ private:
     std::string name_, text_;
     std::unique_ptr<XML_ParserStruct, void (*)(XML_ParserStruct*)> parser_;
     std::exception_ptr mistake_;
-    int depth_ = 0;
+    int depth_ = 0, most_depth_;
 };
 
 }  // namespace espalier

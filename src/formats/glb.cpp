@@ -186,7 +186,9 @@ void Glb::animate(std::size_t node, const char* path, const std::vector<float>& 
 }
 
 std::string Glb::bytes(const std::vector<std::size_t>& roots) const {
-    Json json = {{"asset", {{"version", "2.0"}, {"generator", "espalier"}}},
+    Json asset = {{"version", "2.0"}, {"generator", "espalier"}};
+    if (run_.origin()) asset["extras"] = {{"origin", {run_.origin()->x, run_.origin()->y, run_.origin()->z}}};
+    Json json = {{"asset", asset},
                  {"scene", 0},
                  {"scenes", Json::array({roots.empty() ? Json::object() : Json{{"nodes", roots}}})}};
     // The standard forbids empty lists.

@@ -1,6 +1,7 @@
 #include "espalier/base/file.h"
 
 #include "formats/landscape_file.h"
+#include "formats/map_place.h"
 #include "formats/usd_materials.h"
 #include "formats/usd_mesh.h"
 #include "formats/usd_text.h"
@@ -39,7 +40,8 @@ public:
     ExportedFile write() {
         std::string text =
             "#usda 1.0\n(\n    defaultPrim = \"world\"\n    doc = \"A landscape, made by espalier\"\n"
-            "    metersPerUnit = 1\n    upAxis = \"Y\"\n)\n\ndef Xform \"world\"\n{\n";
+            "    metersPerUnit = 1\n    upAxis = \"Y\"\n" +
+            origin_data(file_.run, 'y') + ")\n\ndef Xform \"world\"\n{\n";
         append(text, "terrain", file_.landscape.terrain.mesh(file_.ground), 4);
         append_plants(text);
         materials_.append_to(text);

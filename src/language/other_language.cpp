@@ -46,6 +46,25 @@ bool begins(std::string_view text, std::string_view beginning) {
     return first != std::string_view::npos && text.substr(first).starts_with(beginning);
 }
 
+bool has_in_small(std::string_view text, std::string_view part) {
+    const auto equal = [](char a, char b) {
+        return a == (b >= 'A' && b <= 'Z' ? static_cast<char>(b - 'A' + 'a') : b);
+    };
+    return std::search(text.begin(), text.end(), part.begin(), part.end(),
+                       [&](char c, char of_part) { return equal(of_part, c); }) != text.end();
+}
+
+/// An object or an array of texts, objects or arrays.
+bool is_json(std::string_view text) {
+    const char* const blanks = " \t\r\n";
+    const std::size_t first = text.find_first_not_of(blanks);
+    if (first == std::string_view::npos) return false;
+    const std::size_t second = text.find_first_not_of(blanks, first + 1);
+    if (second == std::string_view::npos) return false;
+    if (text[first] == '{') return text[second] == '"' || text[second] == '}';
+    return text[first] == '[' && (text[second] == '{' || text[second] == '"' || text[second] == '[');
+}
+
 bool has_extension(const std::filesystem::path& path, std::initializer_list<const char*> extensions) {
     return std::any_of(extensions.begin(), extensions.end(),
                        [&](const char* each) { return path.extension() == each; });
@@ -74,8 +93,14 @@ constexpr std::array notations{
              },
              "this is a model in XL, the language of GroIMP, which is Java and needs that program; Espalier reads "
              "models of cpfg, which begin with 'lsystem:'"},
+    Notation{[](std::string_view text, const std::filesystem::path& path) {
+                 return has_extension(path, {".geom", ".bgeom", ".scne", ".smb"}) || has(text, "PlantGL") ||
+                        (begins_line(text, "shape ") && begins_line(text, "geometry "));
+             },
+             "this is a scene of PlantGL: save it there as OBJ, which Espalier reads as a shape or as points"},
     Notation{[](std::string_view text, const std::filesystem::path&) {
-                 return begin_lines(text, {"angle ", "axiom "}) && has(text, "{") && has(text, "=");
+                 return has_in_small(text, "axiom ") && has(text, "{") && has(text, "}") && has(text, "=") &&
+                        (begins_line(text, "angle ") || has_in_small(text, "{ angle") || begins_line(text, "axiom "));
              },
              "this is an L-system of Fractint: NAME { Angle N, Axiom F, F=... }. Here, a model is 'lsystem: 1', "
              "'derivation length: 5', 'axiom: F', productions 'F --> ...' and 'endlsystem', a line each, and its turns "
@@ -109,12 +134,20 @@ constexpr std::array notations{
                  return begins(text, "<!DOCTYPE html") || begins(text, "<!doctype html") || begins(text, "<html");
              },
              "this is a web page, not the model that it may show: download the file itself"},
+    Notation{[](std::string_view text, const std::filesystem::path&) {
+                 return begins(text, "<") && has_in_small(text.substr(0, 2000), "<arbaro");
+             },
+             "this is a tree of Arbaro: a file whose name ends in .xml"},
+    Notation{[](std::string_view text, const std::filesystem::path&) {
+                 return begins(text, "<") && has(text.substr(0, 2000), "<opf");
+             },
+             "this is a plant in the Open Plant Format: a file whose name ends in .opf"},
     Notation{[](std::string_view text, const std::filesystem::path&) { return begins(text, "<"); },
              "this is XML; Espalier reads models of cpfg, which begin with 'lsystem:'"},
-    Notation{[](std::string_view text, const std::filesystem::path&) { return begins(text, "{\""); },
-             "this is JSON; Espalier reads models of cpfg, which begin with 'lsystem:'"},
+    Notation{[](std::string_view text, const std::filesystem::path&) { return is_json(text); },
+             "this is JSON, data of another program; Espalier reads models of cpfg, which begin with 'lsystem:'"},
     Notation{[](std::string_view text, const std::filesystem::path&) {
-                 return begins(text, "CODE:") || begins(text, "CODE\t");
+                 return begin_lines(text, {"code", "classes"});
              },
              "this is a measured plant, a multiscale tree graph: a file whose name ends in .mtg"},
     Notation{[](std::string_view text, const std::filesystem::path& path) {

@@ -74,6 +74,12 @@ struct MtgGraph {
             while (cells[column].empty()) ++column;
             REQUIRE(column < features);
             const std::string& code = cells[column];
+            if (code.find('I') == std::string::npos) {  // a trunk's row
+                REQUIRE(code.starts_with("/P"));
+                plants.insert(code.substr(1, code.find('/', 1) - 1));
+                axis[column] = code.substr(code.find('A'));
+                continue;
+            }
             const std::string name = code.substr(code.rfind('I'));
             Vertex vertex;
             if (code.starts_with("^<")) {
@@ -84,9 +90,7 @@ struct MtgGraph {
                 vertex.edge = "+";
                 axis[column] = code.substr(1, code.find('/') - 1);
             } else {
-                REQUIRE(code.starts_with("/P"));
-                plants.insert(code.substr(1, code.find('/', 1) - 1));
-                axis[column] = code.substr(code.find('A'), code.rfind('/') - code.find('A'));
+                REQUIRE(code.starts_with("^/I"));
             }
             vertex.axis = axis[column];
             for (std::size_t i = features; i < header.size(); ++i) vertex.features[header[i]] = cells[i];

@@ -19,6 +19,24 @@ struct MeasuredText {
     language::MeasuredPlants read(const std::string& text, const language::MeasuredOptions& options = {}) const {
         return registered<language::NotationType>().at(notation)->measure(text, file, options);
     }
+    language::MeasuredSummary summary(const std::string& text, const language::MeasuredOptions& options = {}) const {
+        return language::summary_of(read(text, options));
+    }
+    /// A line for each.
+    std::string warnings(const std::string& text, const language::MeasuredOptions& options = {}) const {
+        std::string all;
+        for (const Diagnostic& warning : read(text, options).warnings) all += warning.message + "\n";
+        return all;
+    }
+    /// "tree.mtg:1:2: message", or "" where there is none.
+    std::string mistake(const std::string& text, const language::MeasuredOptions& options = {}) const {
+        try {
+            read(text, options);
+        } catch (const UserError& error) {
+            return to_string(error.diagnostics()[0].place) + ": " + error.diagnostics()[0].message;
+        }
+        return "";
+    }
 };
 
 /// What a user compares with the program that wrote a file. Lengths in metres.

@@ -140,7 +140,14 @@ TEST_CASE("files of other programs are named, and what to write in their place",
     CHECK(said("DGF\nVertex\n0 0 0\n#\n").find(".dgf") != std::string::npos);
     CHECK(said("<!DOCTYPE html>\n<html>lsystem</html>\n").find("a web page") != std::string::npos);
     CHECK(said("{\"axiom\": \"F\", \"rules\": {\"F\": \"FF\"}}\n").find("this is JSON") != std::string::npos);
+    CHECK(said("{\n  \"axiom\": \"F\"\n}\n").find("this is JSON") != std::string::npos);
+    CHECK(said("[ { \"axiom\": \"F\" } ]\n").find("this is JSON") != std::string::npos);
+    CHECK(said("Koch { ; a comment\n  angle 6 axiom F--F--F\n  F=F+F--F+F\n}\n").find("Fractint") != std::string::npos);
+    CHECK(said("Shape s_1 {\n  Geometry Sphere { Radius 1 }\n}\n").find("PlantGL") != std::string::npos);
+    CHECK(said("<?xml version='1.0'?>\n<arbaro>\n</arbaro>\n").find("a tree of Arbaro") != std::string::npos);
+    CHECK(said("<opf version=\"2.0\">\n</opf>\n").find(".opf") != std::string::npos);
     CHECK(said("CODE:\tFORM-A\n\nCLASSES:\n").find(".mtg") != std::string::npos);
+    CHECK(said("#a tree\nCODE :\tFORM-A\nCLASSES :\nMTG :\nENTITY-CODE\tXX\n").find(".mtg") != std::string::npos);
     CHECK(said("import turtle\ndef grow(s):\n    return s\n").find("a program in Python") != std::string::npos);
     // A sound model is read whatever its names remind of.
     CHECK(said("lsystem: 1\naxiom: A\nA --> A\nendlsystem\n/* rules, variables,\nangle 90\nimport\n*/\n") == "");

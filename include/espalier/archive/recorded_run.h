@@ -131,6 +131,8 @@ public:
     const std::string& exit() const { return exit_; }
     const std::string& time_unit() const { return time_unit_; }
     double dt() const { return dt_; }  ///< length of a step, in time units
+    /// Where 0 of the run lies on the map, m, y upwards; none: at 0.
+    const std::optional<glm::dvec3>& origin() const { return origin_; }
     /// Units of the processes' quantities in `statistics`, by column; of those that have one.
     const std::map<std::string, std::string>& units() const { return units_; }
     /// Extent along x times extent along z of the domain of the scene or of a process, m2, if there is one.
@@ -162,6 +164,7 @@ private:
     std::string scene_, exit_, time_unit_ = "step";
     double dt_ = 1;
     std::map<std::string, std::string> units_;
+    std::optional<glm::dvec3> origin_;
     std::optional<double> ground_area_;
     std::vector<RecordedPlant> plants_;
     std::vector<RecordedFrame> frames_;

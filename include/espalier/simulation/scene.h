@@ -1,6 +1,7 @@
 // A scene: an experiment, described by a program or by a TOML file. Plants, processes, timeline.
 #pragma once
 
+#include "espalier/base/map_origin.h"
 #include "espalier/base/settings.h"
 #include "espalier/base/stations.h"
 #include "espalier/environment/environment.h"
@@ -95,6 +96,8 @@ struct Scene {
     double dt = 1;  ///< time one derivation step stands for
     std::string time_unit = "step";
     std::optional<Box> domain;  ///< metres; none: grows with the plants
+    /// What is subtracted from places of files; a file may decide it while the world is made. Null: nothing is.
+    std::shared_ptr<MapOrigin> origin;
     /// Blocks of ground along x and z, which ranks hold; none: as many as suit the number of plants.
     std::optional<std::array<int, 2>> blocks;
     Settings timeline;  ///< what `run` records; see `espalier list recorders`

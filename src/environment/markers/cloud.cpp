@@ -4,6 +4,7 @@
 #include "espalier/environment/shape.h"
 
 #include "base/parallel.h"
+#include "environment/markers/point_file.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -228,10 +229,11 @@ std::vector<glm::dvec3> listed(const Settings& table) {
 
 std::vector<glm::dvec3> read_cloud(const Settings& table, const EnvironmentContext& context, std::size_t which,
                                    std::size_t most) {
-    const int kinds = table.has("radii") + table.has("shape") + table.has("points");
+    const int kinds = table.has("radii") + table.has("shape") + table.has("points") + table.has("file");
     if (kinds != 1) {
-        throw UserError(table.place(), "a cloud needs one of 'radii' (an ellipsoid), 'shape' and 'points'");
+        throw UserError(table.place(), "a cloud needs one of 'radii' (an ellipsoid), 'shape', 'points' and 'file'");
     }
+    if (table.has("file")) return read_point_file(table, most, context.warnings);
     if (table.has("points")) return listed(table);
     const Filling filling(table, context, which, most);
     return table.has("radii") ? ellipsoid(table, filling) : in_shape(table, filling, context);
@@ -260,8 +262,8 @@ std::vector<glm::dvec3> read_clouds(const Settings& table, const EnvironmentCont
 }
 
 const char* const cloud_help =
-    R"(cloud      required; attraction points, or several clouds of them as [[environment.<name>.cloud]]. One of radii, shape and
-           points says where
+    R"(cloud      required; attraction points, or several clouds of them as [[environment.<name>.cloud]]. One of radii, shape,
+           points and file says where
     radii    none, m; [across, up, across]: points in an ellipsoid
     base     [0, 0, 0] m; the middle of the lower end of the ellipsoid
     below    0, 0 to 1; share of the ellipsoid's height that is cut off at the lower end
@@ -270,6 +272,10 @@ const char* const cloud_help =
              crown is as wide, deep and high as without
     shape    none; { shape = "...", ... }: points in a solid of `espalier list shapes`
     points   none, m; [[x, y, z], ...]: these points
+    file     none; a file of points, as of a scanned crown (.xyz, .txt, .csv, .asc or .pts: rows of x, y, z), or a mesh,
+             whose corners they are (.ply, .obj)
+    unit     "m"; of the file's lengths: "m", "dm", "cm", "mm", "um" or "inch"
+    up       z of rows, y of meshes; the file's axis that points upwards: "x", "y", "z", "-x", "-y" or "-z"
     density  20 points/m3, > 0; how many points an ellipsoid or a solid has
     number   none, > 0; how many points in all, in place of the density
     seed     0, >= 0; another cloud of the same kind

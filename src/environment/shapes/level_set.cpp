@@ -19,7 +19,8 @@ namespace {
 
 using DenseGrid = openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ>;
 
-constexpr float band_beside = 3;  // voxels on either side: all that inside and a gradient at the surface need
+constexpr float band_beside = 3;      // voxels on either side: all that inside and a gradient at the surface need
+constexpr double near_enough = 1000;  // m from 0: there 32 bits keep a tenth of a millimetre
 constexpr openvdb::Index64 dense_limit = 256 * 256 * 256;
 
 double area(const TriangleMesh& mesh) {
@@ -52,13 +53,23 @@ struct Interrupter final : openvdb::util::NullInterrupter {
     bool wasInterrupted(int) override { return request && request->is_due(); }
 };
 
-openvdb::FloatGrid::Ptr to_level_set(const TriangleMesh& mesh, double voxel) {
+/// Points of the grid are relative to it: 32 bits do not count the places of a map. Whole voxels, so that those near 0
+/// lie as ever.
+glm::dvec3 corner_of(const TriangleMesh& mesh, double voxel) {
+    const Box box = mesh.bounds();
+    const glm::dvec3 farthest = glm::max(glm::abs(box.lower), glm::abs(box.upper));
+    if (std::max({farthest.x, farthest.y, farthest.z}) <= near_enough) return glm::dvec3(0);
+    return voxel * glm::floor(box.lower / voxel);
+}
+
+openvdb::FloatGrid::Ptr to_level_set(const TriangleMesh& mesh, double voxel, const glm::dvec3& corner) {
     initialize_openvdb();
     std::vector<openvdb::Vec3s> points;
     std::vector<openvdb::Vec3I> triangles;
     points.reserve(mesh.points.size());
     triangles.reserve(mesh.triangles.size());
-    for (const glm::dvec3& point : mesh.points) {
+    for (const glm::dvec3& place : mesh.points) {
+        const glm::dvec3 point = place - corner;
         points.emplace_back(static_cast<float>(point.x), static_cast<float>(point.y), static_cast<float>(point.z));
     }
     for (const auto& [a, b, c] : mesh.triangles) triangles.emplace_back(a, b, c);
@@ -84,6 +95,7 @@ struct LevelSet::Storage {
     std::optional<DenseGrid> dense;  ///< a copy where it is small: 8 to 12 times faster to read
     double voxel;
     float background;
+    glm::dvec3 corner{0};  ///< of the mesh, where voxel 0 lies
 
     /// The eight values around `floor`, x slowest.
     void corners(const openvdb::Coord& floor, float (&values)[8]) const {
@@ -109,7 +121,8 @@ struct LevelSet::Storage {
 
 LevelSet::LevelSet(const TriangleMesh& mesh, double voxel, const std::string& file, const Place& place) {
     require_room(mesh, voxel, file, place);
-    Storage storage{to_level_set(mesh, voxel), std::nullopt, voxel, 0};
+    const glm::dvec3 corner = corner_of(mesh, voxel);
+    Storage storage{to_level_set(mesh, voxel, corner), std::nullopt, voxel, 0, corner};
     storage.background = storage.grid->background();
     if (!has_inside(*storage.grid)) {
         throw UserError(
@@ -127,7 +140,7 @@ LevelSet::LevelSet(LevelSet&&) noexcept = default;
 LevelSet::~LevelSet() = default;
 
 LevelSet::Reading LevelSet::read(const glm::dvec3& point) const {
-    const glm::dvec3 index = point / storage_->voxel;
+    const glm::dvec3 index = (point - storage_->corner) / storage_->voxel;
     const glm::dvec3 low = glm::floor(index);
     if (!(std::abs(low.x) < 2e9 && std::abs(low.y) < 2e9 && std::abs(low.z) < 2e9)) {
         return {false, storage_->background, {}};  // beyond what a voxel index can count, so far outside

@@ -1,4 +1,6 @@
 // Shapes bounded by triangles: mesh files and height fields.
+#include "espalier/base/map_origin.h"
+
 #include "environment/covering.h"
 #include "environment/shapes/kinds.h"
 #include "environment/shapes/level_set.h"
@@ -171,6 +173,11 @@ ShapePointer read_mesh(Settings& table) {
     const std::filesystem::path file = table.path("file");
     const Place place = table.place("file");
     TriangleMesh mesh = read_mesh_file(file, scale_of(table), place);
+    if (MapOrigin* const origin = MapOrigin::current()) {
+        const Box map = mesh.bounds();
+        const glm::dvec3 subtracted = origin->of(map.lower, map.upper, {file.string(), 1, 1});
+        for (glm::dvec3& point : mesh.points) point = MapOrigin::shifted(point, subtracted);
+    }
     const glm::dvec3 extent = mesh.bounds().upper - mesh.bounds().lower;
     const double longest = std::max({extent.x, extent.y, extent.z});
     const double voxel = read_voxel(table, longest / 128);

@@ -5,6 +5,7 @@
 #include "archive/meshes/mesh_pieces.h"
 #include "archive/meshes/surface_mesh.h"
 #include "formats/colour.h"
+#include "formats/map_place.h"
 #include "formats/mesh_files.h"
 #include "formats/textures.h"
 
@@ -47,8 +48,9 @@ std::string mtl(const RecordedRun& run, const FrameMesh& mesh, TextureCopies& te
 
 class ObjText {
 public:
-    ObjText(const RecordedRun& run, const std::string& library)
-        : run_(run), text_(fmt::format("# made by espalier; metres\nmtllib {}\n", library)) {}
+    ObjText(const RecordedRun& run, char up, const std::string& library)
+        : run_(run),
+          text_(fmt::format("# made by espalier; metres\n{}mtllib {}\n", origin_line("# ", run, up), library)) {}
 
     /// An object for each plant. A piece of one that is not its first has its number behind its name.
     void add_mesh(const FrameMesh& mesh, std::size_t piece = 1) {
@@ -105,7 +107,7 @@ public:
             for (const Object& object : objects) vertices += object.mesh.points.size();
             const auto path = job.path(*frame, extension(), {vertices, mesh.triangles.size(), 0, "mtl"});
             const auto library = std::filesystem::path(path).replace_extension("mtl");
-            ObjText text(job.run, library.filename().string());
+            ObjText text(job.run, job.options.up, library.filename().string());
             for (const Object& object : objects) text.add_mesh(object.mesh, object.piece);
             write_text(library, mtl(job.run, mesh, textures));
             write_text(path, text.text());

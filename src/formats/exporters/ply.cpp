@@ -3,6 +3,7 @@
 
 #include "archive/meshes/surface_mesh.h"
 #include "formats/bytes.h"
+#include "formats/map_place.h"
 #include "formats/mesh_files.h"
 
 #include <fmt/format.h>
@@ -10,19 +11,19 @@
 namespace espalier::formats {
 namespace {
 
-std::string header(const FrameMesh& mesh) {
+std::string header(const FrameMesh& mesh, const ExportJob& job) {
     return fmt::format(
-        "ply\nformat binary_little_endian 1.0\ncomment made by espalier; metres\nelement vertex {}\n"
+        "ply\nformat binary_little_endian 1.0\ncomment made by espalier; metres\n{}element vertex {}\n"
         "property float x\nproperty float y\nproperty float z\n"
         "property float nx\nproperty float ny\nproperty float nz\n"
         "property float s\nproperty float t\n"
         "property uchar red\nproperty uchar green\nproperty uchar blue\n"
         "element face {}\nproperty list uchar int vertex_indices\nproperty int plant\nproperty int part\nend_header\n",
-        mesh.points.size(), mesh.triangles.size());
+        origin_line("comment ", job.run, job.options.up), mesh.points.size(), mesh.triangles.size());
 }
 
-std::string ply(const FrameMesh& mesh) {
-    std::string bytes = header(mesh);
+std::string ply(const FrameMesh& mesh, const ExportJob& job) {
+    std::string bytes = header(mesh, job);
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
         append_bytes(bytes, mesh.points[i]);
         append_bytes(bytes, mesh.normals[i]);
@@ -45,7 +46,9 @@ class Ply final : public Exporter {
 public:
     std::string extension() const override { return "ply"; }
 
-    void write(const ExportJob& job) const override { write_meshes(job, extension(), true, ply); }
+    void write(const ExportJob& job) const override {
+        write_meshes(job, extension(), true, [&](const FrameMesh& mesh) { return ply(mesh, job); });
+    }
 };
 
 const Registered<ExporterType> entry{

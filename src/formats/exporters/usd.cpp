@@ -6,6 +6,7 @@
 #include "archive/meshes/axis_tree.h"
 #include "archive/meshes/surface_mesh.h"
 #include "archive/meshes/tubes.h"
+#include "formats/map_place.h"
 #include "formats/mesh_files.h"
 #include "formats/usd_instances.h"
 #include "formats/usd_materials.h"
@@ -224,10 +225,10 @@ private:
     static std::string head(const ExportJob& job) {
         return fmt::format(
             "#usda 1.0\n(\n    defaultPrim = \"world\"\n    doc = \"{}, made by espalier\"\n    metersPerUnit = 1\n"
-            "    upAxis = \"{}\"\n    startTimeCode = {}\n    endTimeCode = {}\n    timeCodesPerSecond = {}\n)\n\n"
+            "    upAxis = \"{}\"\n{}    startTimeCode = {}\n    endTimeCode = {}\n    timeCodesPerSecond = {}\n)\n\n"
             "def Xform \"world\"\n{{\n",
-            quoted(job.run.scene()), job.options.up == 'z' ? "Z" : "Y", job.frames.front()->step,
-            job.frames.back()->step, job.steps_per_second);
+            quoted(job.run.scene()), job.options.up == 'z' ? "Z" : "Y", origin_data(job.run, job.options.up),
+            job.frames.front()->step, job.frames.back()->step, job.steps_per_second);
     }
 
     const ExportJob& job_;

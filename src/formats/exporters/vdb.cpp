@@ -4,6 +4,7 @@
 #include "espalier/geometry/openvdb_grid.h"
 
 #include "archive/field_reader.h"
+#include "formats/map_place.h"
 #include "geometry/grids/grid_file.h"
 
 #include <fmt/format.h>
@@ -45,6 +46,9 @@ private:
         openvdb::FloatGrid& grid = *field.grid->grid;
         if (job.voxel_corners) grid.transform().preTranslate(openvdb::Vec3d(-0.5));
         if (job.options.up == 'z') grid.transform().postRotate(std::numbers::pi / 2, openvdb::math::X_AXIS);
+        if (const std::optional<glm::dvec3> origin = origin_of(job.run, job.options.up)) {
+            grid.insertMeta("origin", openvdb::Vec3DMetadata(openvdb::Vec3d(origin->x, origin->y, origin->z)));
+        }
         const auto path = job.path(frame, name + ".vdb");
         write_vdb(path, field);
         job.report({path, 0, 0, static_cast<std::size_t>(grid.activeVoxelCount()), "active voxels", hint});

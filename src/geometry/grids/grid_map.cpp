@@ -1,6 +1,7 @@
 #include "geometry/grids/grid_map.h"
 
 #include "espalier/base/file.h"
+#include "espalier/base/map_origin.h"
 #include "espalier/geometry/openvdb_grid.h"
 
 #include "base/text.h"
@@ -16,6 +17,8 @@ namespace espalier::geometry {
 namespace {
 
 using FieldGrids = std::vector<std::shared_ptr<const FieldGrid>>;
+
+constexpr const char* origin_metadata = "origin";
 
 /// A grid of vectors of floats and the three grids that are made of it: the most that is held at once.
 constexpr std::size_t most_copies = 2;
@@ -81,10 +84,31 @@ bool add_vectors(const openvdb::GridBase& grid, FieldGrids& found) {
     return true;
 }
 
+/// A grid may say where its 0 lies on the map.
+openvdb::Vec3d own_origin(const openvdb::GridBase& grid) {
+    const auto origin = grid.getMetadata<openvdb::Vec3DMetadata>(origin_metadata);
+    return origin ? origin->value() : openvdb::Vec3d(0);
+}
+
+void subtract(MapOrigin& origin, openvdb::GridBase& grid, const std::filesystem::path& path) {
+    const openvdb::Vec3d own = own_origin(grid);
+    const openvdb::CoordBBox voxels = grid.evalActiveVoxelBoundingBox();
+    if (voxels.empty()) return;
+    const openvdb::BBoxd box = grid.transform().indexToWorld(voxels);
+    const auto on_map = [&](const openvdb::Vec3d& at) {
+        return glm::dvec3(at.x() + own.x(), at.y() + own.y(), at.z() + own.z());
+    };
+    const glm::dvec3 subtracted = origin.of(on_map(box.min()), on_map(box.max()), Place{path.string(), 1, 1});
+    const openvdb::Vec3d shift = own - openvdb::Vec3d(subtracted.x, subtracted.y, subtracted.z);
+    if (shift != openvdb::Vec3d(0)) grid.transform().postTranslate(shift);
+}
+
 }  // namespace
 
 GridMap read_grid_map(const MapSource& source) {
     const openvdb::GridBase::Ptr grid = read_grid(source);
+    MapOrigin* const origin = MapOrigin::current();
+    if (origin && grid->transform().isLinear()) subtract(*origin, *grid, source.path);
     GridMap map{grid->getName(), {}};
     const bool is_known =
         add_numbers<openvdb::FloatGrid>(*grid, map.parts) || add_numbers<openvdb::DoubleGrid>(*grid, map.parts) ||

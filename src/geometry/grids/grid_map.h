@@ -26,7 +26,7 @@ struct MapSource {
     std::size_t memory = std::size_t(-1);  ///< most bytes that reading it may take
 };
 
-/// Throws UserError at the places of `source`.
+/// Its places are relative to the current origin of a scene. Throws UserError at the places of `source`.
 GridMap read_grid_map(const MapSource& source);
 
 /// True if both have numbers, or both vectors, in one lattice.

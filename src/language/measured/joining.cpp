@@ -1,5 +1,7 @@
 #include "language/measured/joining.h"
 
+#include "espalier/base/map_origin.h"
+
 #include "language/measured/nearest_point.h"
 
 #include <glm/common.hpp>
@@ -17,6 +19,26 @@ struct Stand {
     std::size_t axis, segment;
     double share;
 };
+
+std::array<glm::dvec3, 2> extent_of(const std::vector<LooseAxis>& axes) {
+    glm::dvec3 lower(INFINITY), upper(-INFINITY);
+    for (const LooseAxis& axis : axes) {
+        for (const MeasuredNode& node : axis.nodes) {
+            lower = glm::min(lower, node.at);
+            upper = glm::max(upper, node.at);
+        }
+    }
+    return {lower, upper};
+}
+
+void subtract(MapOrigin& origin, std::vector<LooseAxis>& axes) {
+    const auto [lower, upper] = extent_of(axes);
+    if (!(lower.x <= upper.x)) return;
+    const glm::dvec3 subtracted = origin.of(lower, upper, Place{axes.front().place.file, 1, 1});
+    for (LooseAxis& axis : axes) {
+        for (MeasuredNode& node : axis.nodes) node.at = MapOrigin::shifted(node.at, subtracted);
+    }
+}
 
 class Joiner {
 public:
@@ -46,13 +68,7 @@ private:
     }
 
     double extent() const {
-        glm::dvec3 lower(INFINITY), upper(-INFINITY);
-        for (const LooseAxis& axis : axes_) {
-            for (const MeasuredNode& node : axis.nodes) {
-                lower = glm::min(lower, node.at);
-                upper = glm::max(upper, node.at);
-            }
-        }
+        const auto [lower, upper] = extent_of(axes_);
         return lower.x <= upper.x ? glm::length(upper - lower) : 0;
     }
 
@@ -136,6 +152,7 @@ private:
 }  // namespace
 
 std::vector<MeasuredAxis> joined(std::vector<LooseAxis> axes) {
+    if (MapOrigin* const origin = MapOrigin::current()) subtract(*origin, axes);
     return Joiner(std::move(axes)).joined();
 }
 

@@ -20,7 +20,8 @@ struct LooseAxis {
 
 /// Joins axes to those that bear them. An axis that begins on its bearer's line divides the segment there. One that
 /// begins beside it hangs on the node that the file says, or else on the nearest point of the line, by a link. Axes
-/// without nodes are left out, and do not count in orders. What is returned is sorted by plant.
+/// without nodes are left out, and do not count in orders. What is returned is sorted by plant. The current origin of a
+/// scene is subtracted first, so that what is computed of places does not depend on it.
 std::vector<MeasuredAxis> joined(std::vector<LooseAxis> axes);
 
 }  // namespace espalier::language::measured

@@ -4,24 +4,24 @@
 
 namespace espalier::language::measured {
 
-void Notes::unused(const std::string& what, const Place& place) {
-    note(what, place, true);
+void Notes::unused(const std::string& what, const Place& place, std::size_t places) {
+    note(what, place, true, places);
 }
 
-void Notes::warn(const std::string& sentence, const Place& place) {
-    note(sentence, place, false);
+void Notes::warn(const std::string& sentence, const Place& place, std::size_t places) {
+    note(sentence, place, false, places);
 }
 
-void Notes::note(const std::string& text, const Place& place, bool is_unused) {
+void Notes::note(const std::string& text, const Place& place, bool is_unused, std::size_t places) {
     constexpr std::size_t most_unused = 100;
     if (is_unused && unused_kinds_ == most_unused && !number_of_.contains(text)) {
-        ++further_;
+        further_ += places;
         return;
     }
     const auto [found, is_new] = number_of_.try_emplace(text, kinds_.size());
     if (is_new && is_unused) ++unused_kinds_;
     if (is_new) kinds_.push_back({text, place.known() ? place : Place{file_, 0, 0}, 0, is_unused});
-    ++kinds_[found->second].places;
+    kinds_[found->second].places += places;
 }
 
 std::vector<Diagnostic> Notes::warnings() const {

@@ -13,10 +13,11 @@ class Notes {
 public:
     explicit Notes(std::string file) : file_(std::move(file)) {}
 
-    /// Something that the file holds and nothing reads: "element <annotation>", "column 'Azimuth'".
-    void unused(const std::string& what, const Place& place = {});
+    /// Something that the file holds and nothing reads: "element <annotation>", "column 'Azimuth'"; in so many places,
+    /// of which this is the first.
+    void unused(const std::string& what, const Place& place = {}, std::size_t places = 1);
     /// A guess, or a loss, in a sentence; the same sentence is said once.
-    void warn(const std::string& sentence, const Place& place = {});
+    void warn(const std::string& sentence, const Place& place = {}, std::size_t places = 1);
 
     /// In the order of the first places of each; of those that are unused a hundred at most, and how many more.
     std::vector<Diagnostic> warnings() const;
@@ -28,7 +29,7 @@ private:
         std::size_t places;
         bool is_unused;
     };
-    void note(const std::string& text, const Place& place, bool is_unused);
+    void note(const std::string& text, const Place& place, bool is_unused, std::size_t places);
 
     std::string file_;
     std::vector<Kind> kinds_;

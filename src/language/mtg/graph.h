@@ -3,35 +3,56 @@
 
 #include "espalier/base/error.h"
 
+#include <array>
+#include <cstdint>
+#include <deque>
 #include <map>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
+
+namespace espalier::language::measured {
+class Notes;
+}
 
 namespace espalier::language::mtg {
 
+constexpr std::uint32_t none = 0xFFFFFFFF;
+
+/// What of a row is read.
+enum Measure { x, y, z, top, bottom, length, day, measures };
+
+/// In the file's units, `day` from the first date of the file; NaN where a row has no number.
+using Measures = std::array<double, measures>;
+
 struct Vertex {
-    std::string label;                     ///< class and index, "I12"
-    int scale = 0;                         ///< of its class; the coarsest is 1
-    bool follows = false;                  ///< <, its parent's successor; else +, borne by it
-    std::optional<std::size_t> parent;     ///< at the same scale
-    std::optional<std::size_t> complex;    ///< what it is a part of
-    std::optional<std::size_t> last_part;  ///< the last of its own parts
-    std::optional<std::size_t> stands_on;  ///< of any scale; where it was attached
-    std::vector<std::string> features;     ///< cells of its line; none for those that a line passes
-    Place place;
+    std::string_view label;          ///< class and index, "I12"
+    std::uint32_t parent = none;     ///< at the same scale, or a coarser one without parts
+    std::uint32_t complex = none;    ///< what it is a part of
+    std::uint32_t last_part = none;  ///< the last of its own parts
+    std::uint32_t stands_on = none;  ///< of any scale; where it was attached
+    std::uint32_t row = none;        ///< of the measures; none for those that a line passes
+    std::int32_t line = 0, column = 0;
+    std::int16_t scale = 0;  ///< of its class
+    bool follows = false;    ///< <, its parent's successor; else +, borne by it
+    bool is_first_part = false;
 };
 
 struct Graph {
-    std::vector<Vertex> vertices;               ///< each after its parent and its complex
-    std::map<std::string, std::size_t> column;  ///< of a feature, by its name in small letters
-    std::string unit = "m", up = "z";           ///< of lines "# unit: cm" and "# up: y"
+    std::vector<Vertex> vertices;  ///< each after its parent and its complex
+    std::vector<Measures> rows;
+    std::map<std::uint32_t, std::string> plant_names;  ///< of vertices, from a column "plant"
+    std::deque<std::string> labels;                    ///< that do not stand in the text
+    std::array<double, 3> origin{};    ///< of a line "# origin: x y z", m, which is added to coordinates
+    std::string unit = {}, up = {};    ///< of lines "# unit: cm" and "# up: y"; "" if there is none
+    std::string diameter_unit = {};    ///< of the columns of diameters
+    std::vector<std::string> columns;  ///< all of them, as they are written
+    bool has_times = false;
 
-    /// A feature as a finite number; nothing if it has none of these names.
-    std::optional<double> number(const Vertex& vertex, std::initializer_list<const char*> names) const;
+    double measure(const Vertex& vertex, Measure which) const;
 };
 
-/// Throws UserError with the line and column of a mistake.
-Graph read(const std::string& text, const std::string& name);
+/// The text must outlive the graph. Throws UserError with the line and column of a mistake.
+Graph read(const std::string& text, const std::string& name, measured::Notes& notes);
 
 }  // namespace espalier::language::mtg

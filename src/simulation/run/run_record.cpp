@@ -161,6 +161,7 @@ std::string RunRecord::json(const std::string& exit, double seconds) const {
     json["steps_done"] = steps_done();
     json["dt"] = scene.dt;
     json["time_unit"] = scene.time_unit;
+    if (scene.origin && scene.origin->value()) json["origin"] = vector_json(*scene.origin->value());
     json["threads"] = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
     if (ranks_ > 1) json["ranks"] = ranks_;
     json["memory"] = memory_;

@@ -47,6 +47,8 @@ void read_simulation(const Settings& table, Scene& scene) {
     scene.seed = static_cast<std::uint64_t>(table.integer_or("seed", 0, Range::not_negative()));
     scene.dt = table.number_or("dt", 1, Range::positive());
     scene.time_unit = table.text_or("time_unit", "step");
+    scene.origin =
+        table.has("origin") ? std::make_shared<MapOrigin>(table.vector("origin")) : std::make_shared<MapOrigin>();
     if (table.has("domain")) scene.domain = read_domain(table.table("domain"));
     if (table.has("blocks")) scene.blocks = read_blocks(table);
     table.integer_or("steps", 0);  // so that a misspelt 'steps' is offered it
@@ -171,6 +173,26 @@ void end_without_window(Scene& scene) {
     scene.last_frame.reset();
 }
 
+/// What a file decided, and plants that stand where 32 bits, which are recorded, do not keep a millimetre.
+void tell_origin(Scene& scene) {
+    if (!scene.origin) return;
+    for (Diagnostic& warning : scene.origin->take_warnings()) scene.notes.diagnostics.push_back(std::move(warning));
+    for (const Plant& plant : scene.plants) {
+        const glm::dvec3& at = plant.turtle.pose.position;
+        const double farthest = std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)});
+        if (farthest <= MapOrigin::far_away) continue;
+        Diagnostic& warning = scene.notes.diagnostics.emplace_back();
+        warning.severity = Diagnostic::Severity::warning;
+        warning.place = scene.root.place();
+        warning.message = fmt::format(
+            "plant '{}' stands {:.0f} m from the origin, and 32 bits keep a millimetre only up to {:.0f} m: places "
+            "that a "
+            "scene writes are relative to the 'origin' of [simulation]",
+            plant.name, farthest, MapOrigin::far_away);
+        return;
+    }
+}
+
 Scene read(Settings root, Scene scene, const SceneOptions& options) {
     scene.overrides = options.overrides;
     if (options.steps) scene.overrides.emplace_back("simulation.steps", std::to_string(*options.steps));
@@ -188,15 +210,17 @@ Scene read(Settings root, Scene scene, const SceneOptions& options) {
     if (!keyframes.of_processes.empty()) {
         scene.environment.in_time = std::make_shared<const EnvironmentInTime>(keyframes.of_processes);
     }
+    const MapOrigin::Scope of_files(scene.origin.get());
     scene.plants = read_plants(root, scene.seed, scene.dt, mistakes, scene.notes, keyframes.of_plants);
     try {
         mistakes.throw_if_any();
     } catch (const UserError& error) {
         throw explained(error, scene.computed);
     }
+    scene.root = root;
+    tell_origin(scene);
     if (scene.steps) scene.last_frame.reset();
     end_without_window(scene);
-    scene.root = root;
     return scene;
 }
 
@@ -246,6 +270,10 @@ const char* scene_help() {
   dt           1, > 0; duration of a step, in units of time
   time_unit    "step"; name of the unit of time
   blocks       by the number of plants; [x, z]: number of blocks of ground, which the ranks of `mpiexec` share
+  origin       that of a file, m; [x, y, z]: the place on the map, y upwards, that everything in the scene is relative to.
+               It is subtracted from the places in files (measured plants, meshes, fields, points); places that the scene
+               writes are relative to it. Without it, the first file with places beyond 10 km decides it, rounded to 100 m,
+               with a warning, and files that lie nearer to 0 are relative to the scene
   domain       grows with the plants, m; { lower = [x, y, z], upper = [x, y, z] }: the box of the environment
 
 [[plant]]      one table per individual or per stand

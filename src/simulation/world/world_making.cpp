@@ -83,10 +83,14 @@ void World::State::make_environment() {
     const SceneEnvironment& described = scene.environment;
     const auto count = static_cast<std::uint32_t>(scene.plants.size());
     const EnvironmentContext context{"", scene.domain, scene.seed, count, budget / 2, &warnings};
+    const MapOrigin::Scope of_files(scene.origin.get());
     try {
         environment = std::make_unique<Environment>(described.processes, context);
     } catch (const UserError& error) {
         throw explained(error, scene.computed);
+    }
+    if (scene.origin) {
+        for (Diagnostic& warning : scene.origin->take_warnings()) warnings.push_back(std::move(warning));
     }
     for (const auto& process : described.processes) process.second.reject_unread();
     if (described.in_time) described.in_time->check(*environment);

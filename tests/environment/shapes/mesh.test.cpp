@@ -273,3 +273,18 @@ TEST_CASE("a height field read from an image has the picture's rows along z", "[
     write_text(folder.path() / "no.png", "no image");
     CHECK_THROWS_AS(shape_of(table + (folder.path() / "no.png").string() + "'"), UserError);
 }
+
+TEST_CASE("a mesh at places of a map keeps its inside, to a millimetre", "[shape]") {
+    const TemporaryFolder folder;
+    constexpr double east = 592783, north = -5432100;
+    std::string cube;
+    for (int k = 0; k < 8; ++k) cube += fmt::format("v {} {} {}\n", east + (k & 1), (k >> 1) & 1, north + (k >> 2));
+    cube += "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+    const auto shape = shape_of(mesh_table(folder.write("cube.obj", cube), 0.05));
+    const auto at = [](double x, double y, double z) { return glm::dvec3(east + x, y, north + z); };
+    CHECK(shape->inside(at(0.5, 0.5, 0.5)));
+    CHECK_FALSE(shape->inside(at(0.5, 0.5, 1.1)));
+    CHECK(std::abs(shape->distance(at(0.5, 0.5, 0.9)) + 0.1) < 0.001);
+    CHECK(std::abs(shape->distance(at(0.5, 0.5, 1.1)) - 0.1) < 0.001);
+    CHECK(glm::distance(shape->sample(at(0.5, 0.97, 0.5)).nearest, at(0.5, 1, 0.5)) < 0.001);
+}

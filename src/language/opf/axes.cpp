@@ -1,0 +1,247 @@
+#include "language/opf/axes.h"
+
+#include "espalier/base/file.h"
+#include "espalier/base/math.h"
+
+#include "base/number.h"
+#include "base/text.h"
+#include "language/measured/cells.h"
+#include "language/measured/joining.h"
+#include "language/measured/notes.h"
+#include "language/measured/units.h"
+#include "language/opf/document.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include <cmath>
+#include <map>
+
+namespace espalier::language::opf {
+namespace {
+
+/// Where a plant of a scene stands; lengths in metres, in the file's axes.
+struct Stand {
+    glm::dmat3 turn{1};
+    double scale = 1;
+    glm::dvec3 at{0};
+};
+
+/// What is said of a file's lengths and axes.
+class Axes {
+public:
+    explicit Axes(const MeasuredOptions& options)
+        : unit(options.unit.empty() ? "cm" : options.unit),
+          up(options.up.empty() ? "z" : options.up),
+          metres(options.pixel ? *options.pixel : measured::metres_of_unit(unit)),
+          upright(measured::upright(up)) {}
+
+    std::string unit, up;
+    double metres;
+    glm::dmat3 upright;
+};
+
+/// The pieces of a document as axes, behind those of others.
+class Pieces {
+public:
+    Pieces(const Document& document, const Axes& axes, const Stand& stand)
+        : document_(document),
+          axes_(axes),
+          stand_(stand),
+          last_inside_(document.entities.size(), none),
+          complex_of_(document.entities.size(), none) {
+        for (std::uint32_t v = 0; v < complex_of_.size(); ++v) {
+            const Entity& entity = document.entities[v];
+            if (entity.inside == none) continue;
+            complex_of_[v] = entity.relation == '/' ? entity.inside : complex_of_[entity.inside];
+        }
+    }
+
+    void add_to(std::vector<measured::LooseAxis>& loose, std::vector<MeasuredPlant>& plants) {
+        std::vector<std::uint32_t> axis_of(document_.entities.size(), none);
+        std::vector<bool> is_continued(document_.entities.size());
+        std::map<std::uint32_t, std::size_t> plant_of;
+        for (std::uint32_t v = 0; v < document_.entities.size(); ++v) {
+            if (!document_.entities[v].mesh) continue;
+            char relation = '/';
+            const std::uint32_t bearer = bearer_of(v, relation);
+            remember(v);
+            if (bearer != none && relation == '<' && !is_continued[bearer]) {
+                is_continued[bearer] = true;
+                axis_of[v] = axis_of[bearer];
+                add_piece(v, loose[axis_of[v]].nodes);
+                continue;
+            }
+            axis_of[v] = static_cast<std::uint32_t>(loose.size());
+            measured::LooseAxis& axis = loose.emplace_back();
+            axis.label = document_.entities[v].label;
+            axis.place = document_.entities[v].at;
+            if (bearer != none) {
+                axis.bearer = axis_of[bearer];
+                axis.plant = loose[*axis.bearer].plant;
+            } else {
+                const std::uint32_t whole = whole_of(v);
+                const auto [found, is_new] = plant_of.try_emplace(whole, plants.size());
+                if (is_new) plants.push_back({document_.entities[whole].label});
+                axis.plant = found->second;
+            }
+            add_piece(v, axis.nodes);
+        }
+    }
+
+private:
+    /// The piece that an entity stands on, and how: what it is nested in, or the last piece of that.
+    std::uint32_t bearer_of(std::uint32_t v, char& relation) const {
+        relation = '/';
+        while (document_.entities[v].inside != none) {
+            const Entity& entity = document_.entities[v];
+            v = entity.inside;
+            // A part stands on what its whole stands on, unless it follows another.
+            if (entity.relation == '/' && last_inside_[v] == none) continue;
+            if (relation == '/') relation = entity.relation == '/' ? '+' : entity.relation;
+            if (document_.entities[v].mesh) return v;
+            if (last_inside_[v] != none) return last_inside_[v];
+        }
+        return none;
+    }
+
+    /// Makes a piece the last of what it is a part of, unless it is borne by another part.
+    void remember(std::uint32_t piece) {
+        for (std::uint32_t v = piece; v != none && document_.entities[v].relation != '+';) {
+            v = complex_of_[v];
+            if (v != none) last_inside_[v] = piece;
+        }
+    }
+
+    /// What is coarsest around it, except a scene.
+    std::uint32_t whole_of(std::uint32_t v) const {
+        while (document_.entities[v].inside != none && document_.entities[document_.entities[v].inside].scale > 0) {
+            v = document_.entities[v].inside;
+        }
+        return v;
+    }
+
+    glm::dvec3 placed(const glm::dvec3& at) const {
+        return axes_.upright * (stand_.at + stand_.turn * (stand_.scale * axes_.metres * at));
+    }
+
+    void add_piece(std::uint32_t v, std::vector<MeasuredNode>& nodes) const {
+        const Entity& entity = document_.entities[v];
+        const MeshBox& mesh = *entity.mesh;
+        const auto at = [&](double x) { return placed(entity.place * glm::dvec4(x, 0, 0, 1)); };
+        const double across = (mesh.upper.y - mesh.lower.y) * glm::length(entity.place[1]);
+        const double factor = mesh.is_scaled ? 0.5 * (entity.upper + entity.lower) : 1;
+        const double diameter = stand_.scale * axes_.metres * std::abs(across * factor);
+        const glm::dvec3 begin = at(mesh.lower.x), end = at(mesh.upper.x);
+        const double tolerance = 1e-5 * glm::distance(begin, end);
+        if (nodes.empty() || glm::distance(nodes.back().at, begin) > tolerance) {
+            nodes.push_back({begin, diameter, 0, !nodes.empty()});
+        }
+        nodes.push_back({end, diameter, 0, false});
+    }
+
+    const Document& document_;
+    const Axes& axes_;
+    const Stand& stand_;
+    std::vector<std::uint32_t> last_inside_;  ///< the last piece that is a part of each
+    std::vector<std::uint32_t> complex_of_;   ///< what each is a part of
+};
+
+MeasuredPlants finished(std::vector<measured::LooseAxis> loose, std::vector<MeasuredPlant> plants, const Axes& axes,
+                        const std::string& name, const measured::Notes& notes) {
+    if (loose.empty()) {
+        throw UserError(Place{name, 1, 1},
+                        "no entity of this file has a mesh that is a piece of an axis: as thick one "
+                        "way as the other, along its x axis");
+    }
+    MeasuredPlants read;
+    read.axes = measured::joined(std::move(loose));
+    read.plants = std::move(plants);
+    read.unit = axes.unit;
+    read.up = axes.up;
+    read.warnings = notes.warnings();
+    return read;
+}
+
+/// Rows of an .ops file: scene, plant, file, x, y, z (m), scale, azimuth and angle of inclination, twist (radians).
+class SceneRow {
+public:
+    SceneRow(const std::vector<std::string_view>& cells, const Place& place) : cells_(cells), place_(place) {}
+
+    std::string file() const { return std::string(cells_[2]); }
+
+    Stand stand() const {
+        Stand stand;
+        stand.at = {number(3), number(4), number(5)};
+        stand.scale = number(6);
+        const glm::dmat3 azimuth = about_z(number(7));
+        stand.turn = azimuth * about_y(number(8)) * glm::transpose(azimuth) * about_z(number(9));
+        return stand;
+    }
+
+private:
+    double number(std::size_t column) const {
+        const std::optional<double> value = column < cells_.size() ? finite_number(cells_[column]) : std::nullopt;
+        if (value && std::abs(*value) < 1e12) return *value;
+        throw UserError(place_, "a plant of a scene is 'scene plant file x y z scale azimuth angle twist'");
+    }
+
+    static glm::dmat3 about_z(double angle) {
+        const double c = math::cos(angle), s = math::sin(angle);
+        return {{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
+    }
+    static glm::dmat3 about_y(double angle) {
+        const double c = math::cos(angle), s = math::sin(angle);
+        return {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
+    }
+
+    const std::vector<std::string_view>& cells_;
+    Place place_;
+};
+
+}  // namespace
+
+MeasuredPlants read_plants(const std::string& text, const std::string& name, const MeasuredOptions& options) {
+    measured::Notes notes(name);
+    const Axes axes(options);
+    const Document document = read(text, name, notes);
+    std::vector<measured::LooseAxis> loose;
+    std::vector<MeasuredPlant> plants;
+    Pieces(document, axes, Stand()).add_to(loose, plants);
+    return finished(std::move(loose), std::move(plants), axes, name, notes);
+}
+
+MeasuredPlants read_scene(const std::string& text, const std::filesystem::path& path, const MeasuredOptions& options) {
+    const std::string name = path.string();
+    measured::Notes notes(name);
+    const Axes axes(options);
+    std::map<std::string, Document> documents;
+    std::vector<measured::LooseAxis> loose;
+    std::vector<MeasuredPlant> plants;
+    std::vector<std::string_view> cells;
+    int line = 0;
+    for (std::size_t begin = 0; begin < text.size();) {
+        measured::split_cells(measured::next_line(text, begin), ' ', cells);
+        const Place place{name, ++line, 1};
+        if (cells.empty() || cells[0].starts_with('#')) continue;
+        if (cells[0] == "T") {
+            notes.unused("the terrain", place);
+            continue;
+        }
+        const SceneRow row(cells, place);
+        const Stand stand = row.stand();
+        auto found = documents.find(row.file());
+        if (found == documents.end()) {
+            const std::filesystem::path file = path.parent_path() / row.file();
+            if (!is_readable(file)) {
+                throw UserError(place, fmt::format("there is no file {}, which this plant is in", file.string()));
+            }
+            found = documents.emplace(row.file(), read(read_text(file), file.string(), notes)).first;
+        }
+        Pieces(found->second, axes, stand).add_to(loose, plants);
+    }
+    return finished(std::move(loose), std::move(plants), axes, name, notes);
+}
+
+}  // namespace espalier::language::opf

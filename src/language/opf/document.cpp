@@ -1,0 +1,167 @@
+#include "language/opf/document.h"
+
+#include "base/number.h"
+#include "base/text.h"
+#include "base/xml_reader.h"
+#include "language/measured/cells.h"
+#include "language/measured/notes.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace espalier::language::opf {
+namespace {
+
+constexpr int most_depth = 100'000;  ///< each internode stands inside the one before
+constexpr double largest = 1e12;
+
+class Reader final : public XmlReader {
+public:
+    Reader(const std::string& name, measured::Notes& notes) : XmlReader(name, most_depth), notes_(notes) {}
+
+    Document read(const std::string& text) {
+        parse(text);
+        if (!is_opf_) fail("this is no OPF file: its outermost element is not <opf>");
+        for (const auto& [element, place] : not_drawn_) {
+            notes_.warn(fmt::format("'{}' has meshes that are no pieces of axes, and is not drawn", escaped(element)),
+                        place.first, place.second);
+        }
+        return std::move(document_);
+    }
+
+private:
+    struct Shape {
+        std::string mesh;
+    };
+
+    std::vector<double> numbers(std::size_t count) {
+        std::vector<double> numbers;
+        for (const std::string& word : words_of(text(), " \t\r\n,")) {
+            const std::optional<double> number = finite_number(word);
+            if (!number || std::abs(*number) > largest) fail(fmt::format("'{}' is no number", escaped(word)));
+            numbers.push_back(*number);
+        }
+        if (count > 0 && numbers.size() != count) {
+            fail(fmt::format("here are {} numbers, not {}", numbers.size(), count));
+        }
+        return numbers;
+    }
+
+    std::string word() const {
+        const std::vector<std::string> words = words_of(text(), " \t\r\n");
+        return words.empty() ? "" : words[0];
+    }
+
+    void begin(const std::string& element, const XmlAttributes& attributes) override {
+        if (element == "opf") is_opf_ = true;
+        if (element == "mesh") {
+            mesh_ = attributes.value("Id");
+            meshes_[mesh_].is_scaled = attributes.value("enableScale") == "true";
+        }
+        if (element == "shape") shape_ = attributes.value("Id");
+        if (element == "geometry") is_in_geometry_ = true;
+        const char relation = element == "topology" || element == "decomp" ? '/'
+                              : element == "follow"                        ? '<'
+                              : element == "branch"                        ? '+'
+                                                                           : ' ';
+        if (relation != ' ') begin_entity(relation, attributes);
+    }
+
+    void begin_entity(char relation, const XmlAttributes& attributes) {
+        Entity entity;
+        entity.relation = relation;
+        entity.at = here();
+        entity.label = attributes.value("class");
+        const std::optional<double> scale = finite_number(attributes.value("scale"));
+        entity.scale = scale ? static_cast<int>(std::clamp(*scale, -1.0, 1000.0)) : 0;
+        if (!open_.empty()) entity.inside = open_.back();
+        open_.push_back(static_cast<std::uint32_t>(document_.entities.size()));
+        document_.entities.push_back(std::move(entity));
+    }
+
+    void end(const std::string& element) override {
+        if (is_in_geometry_) return end_in_geometry(element);
+        if (element == "points") return end_points();
+        if (element == "meshIndex") shapes_[shape_].mesh = word();
+        if (open_.empty()) return;
+        if (element == "topology" || element == "decomp" || element == "follow" || element == "branch") {
+            open_.pop_back();
+        } else {
+            notes_.unused(fmt::format("attribute '{}'", escaped(element)), here());
+        }
+    }
+
+    void end_points() {
+        const std::vector<double> all = numbers(0);
+        if (all.size() % 3 != 0) fail("points have three coordinates each");
+        MeshBox& box = meshes_[mesh_];
+        box.lower = glm::dvec3(INFINITY);
+        box.upper = glm::dvec3(-INFINITY);
+        for (std::size_t i = 0; i < all.size(); i += 3) {
+            const glm::dvec3 at(all[i], all[i + 1], all[i + 2]);
+            box.lower = glm::min(box.lower, at);
+            box.upper = glm::max(box.upper, at);
+        }
+    }
+
+    void end_in_geometry(const std::string& element) {
+        if (element == "geometry") is_in_geometry_ = false;
+        if (open_.empty()) return;
+        Entity& entity = document_.entities[open_.back()];
+        if (element == "shapeIndex") {
+            give_mesh(entity);
+        } else if (element == "mat") {
+            const std::vector<double> m = numbers(12);
+            for (int row = 0; row < 3; ++row) {
+                for (int column = 0; column < 4; ++column) entity.place[column][row] = m[std::size_t(4 * row + column)];
+            }
+        } else if (element == "dUp") {
+            entity.upper = numbers(1)[0];
+        } else if (element == "dDwn") {
+            entity.lower = numbers(1)[0];
+        } else if (element != "geometry") {
+            notes_.unused(fmt::format("element <{}> of a geometry", escaped(element)), here());
+        }
+    }
+
+    void give_mesh(Entity& entity) {
+        const auto shape = shapes_.find(word());
+        if (shape == shapes_.end()) fail(fmt::format("there is no shape '{}'", escaped(word())));
+        const auto mesh = meshes_.find(shape->second.mesh);
+        if (mesh == meshes_.end()) fail(fmt::format("there is no mesh '{}'", escaped(shape->second.mesh)));
+        if (mesh->second.is_tube()) {
+            entity.mesh = mesh->second;
+            return;
+        }
+        auto& [place, count] = not_drawn_[entity.label];
+        if (count++ == 0) place = here();
+    }
+
+    measured::Notes& notes_;
+    bool is_opf_ = false, is_in_geometry_ = false;
+    std::string mesh_, shape_;  ///< that are open
+    std::map<std::string, MeshBox> meshes_;
+    std::map<std::string, Shape> shapes_;
+    std::vector<std::uint32_t> open_;
+    std::map<std::string, std::pair<Place, std::size_t>> not_drawn_;
+    Document document_;
+};
+
+}  // namespace
+
+bool MeshBox::is_tube() const {
+    const glm::dvec3 size = upper - lower, middle = 0.5 * (upper + lower);
+    const double across = std::max(size.y, size.z);
+    return size.x > 0 && across > 0 && std::abs(size.y - size.z) < 0.2 * across &&
+           std::max(std::abs(middle.y), std::abs(middle.z)) < 0.1 * across;
+}
+
+Document read(const std::string& text, const std::string& name, measured::Notes& notes) {
+    return Reader(name, notes).read(text);
+}
+
+}  // namespace espalier::language::opf
