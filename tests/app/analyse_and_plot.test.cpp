@@ -165,7 +165,7 @@ TEST_CASE_METHOD(Workplace, "tables and charts tell time, units and names", "[ap
 
     REQUIRE(run("analyse run --no-picture --range -1:0").code == 0);
     CHECK_THAT(text_of(path() / "run/analysis/layers.csv"),
-               StartsWith("step,time,plant,name,from,to,length,surface,leaf_area,density,ground_density\n") &&
+               StartsWith("step,time,plant,name,from,to,length,surface,leaf_area,density,ground_density,uptake\n") &&
                    Contains("\n4,2,0,\"left, main\",-1,"));
     CHECK(run("analyse run --no-picture --range 0:-1").code == 1);
     const Outcome plotted = run("plot run --quantity water.uptake --output uptake.svg");

@@ -98,8 +98,8 @@ TEST_CASE_METHOD(BadInput, "mistakes in a scene exit with 1 and leave no output 
                "'vigour' means nothing here; what can stand here: blocks, domain, dt, seed, steps, time_unit");
     fails_with(plant + "[simulation\n", "scene.toml:3:");
     fails_with(plant + "[environment.light]\nprocess = 'voxle-shade'\n", "did you mean 'voxel-shade'?");
-    fails_with(plant + light + "voxel = -0.25\n", "scene.toml:5:1: 'voxel' must be greater than 0");
-    fails_with(plant + light + "voxel = 0\n", "'voxel' must be greater than 0");
+    fails_with(plant + light + "voxel = -0.25\n", "scene.toml:5:1: 'voxel' must be at least 1.5e-05, not -0.25");
+    fails_with(plant + light + "voxel = 0\n", "'voxel' must be at least 1.5e-05, not 0");
     fails_with(plant + light + "voxel = nan\n", "'voxel' must be a finite number");
     fails_with(plant + light + "voxle = 0.25\n", "(did you mean 'voxel'?)");
     fails_with(plant + "[timeline]\nevry = 2\n", "(did you mean 'every'?)");
