@@ -49,7 +49,7 @@ void print_text(const MeasuredPlants& plants, const MeasuredSummary& summary) {
     fmt::print("nodes      {}\n", summary.nodes);
     fmt::print(
         "length     {}{}\n", in_words(summary.length),
-        summary.link_length > 0 ? ", and " + in_words(summary.link_length) + " of links, which is nobody's" : "");
+        summary.link_length > 0 ? ", and " + in_words(summary.link_length) + " of links, which belong to no axis" : "");
     fmt::print("surface    {} m2\n", format_general(summary.surface));
     fmt::print("volume     {} m3\n", format_general(summary.volume));
     fmt::print("size       {} wide, {} high, {} deep\n", in_words(size.x), in_words(size.y), in_words(size.z));

@@ -95,7 +95,7 @@ TEST_CASE_METHOD(BadInput, "mistakes in a scene exit with 1 and leave no output 
     fails_with(plant + "[simulation]\nstpes = 3\n",
                "scene.toml:4:1: 'stpes' means nothing here (did you mean 'steps'?)");
     fails_with(plant + "[simulation]\nvigour = 3\n",
-               "'vigour' means nothing here; what can stand here: blocks, domain, dt, seed, steps, time_unit");
+               "'vigour' means nothing here; what can stand here: blocks, domain, dt, origin, seed, steps, time_unit");
     fails_with(plant + "[simulation\n", "scene.toml:3:");
     fails_with(plant + "[environment.light]\nprocess = 'voxle-shade'\n", "did you mean 'voxel-shade'?");
     fails_with(plant + light + "voxel = -0.25\n", "scene.toml:5:1: 'voxel' must be at least 1.5e-05, not -0.25");

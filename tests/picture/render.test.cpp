@@ -74,7 +74,7 @@ TEST_CASE("render: a frame in several files is drawn one file at a time, as a fr
         CameraPlace camera{20, 10};
         camera.is_parallel = is_parallel;
         PictureStyle style;
-        style.fields.push_back({"light"});
+        style.fields.emplace_back().name = "light";
         const RenderJob job{run, {&run.frame(0)}, style, camera, 0, true, false, {96, 72}, {}};
         return read_png(render_pictures(job, folder.path / "picture.png").front());
     };

@@ -146,7 +146,7 @@ TEST_CASE_METHOD(ObjectFolder, "the model of an object may be in any notation", 
     std::filesystem::remove(folder().path() / "straw.sdl");
     CHECK(name_of(read().model) == "stem.pgraph");
     std::filesystem::remove(folder().path() / "stem.pgraph");
-    CHECK_THAT(message(), Contains("nor one that ends in .l, .xml, .dgf, .mtg, .pgraph, .rparam, .rsml, .sdl"));
+    CHECK_THAT(message(), Contains("nor one that ends in .l, .xml, .csv, .txt, .dgf, .mtg, .opf, .ops, .pgraph, .rparam, .rsml, .sdl"));
 }
 
 TEST_CASE_METHOD(ObjectFolder, "a choice that is not clear is an error that names the choices", "[simulation]") {

@@ -89,10 +89,10 @@ width          0.05 m; of a leaf along the wind
 
 const std::string& air_help() {
     static const std::string text =
-        R"(temperature    25 degrees Celsius
+        R"(temperature    25 degrees Celsius; of the air
 humidity       0.6; relative humidity, 0 to 1
 wind           1 m/s, at the leaves
-co2            400 umol/mol
+co2            400 umol/mol; carbon dioxide in the air
 pressure       101.325 kPa; or height (m above the sea), which gives it
 cloud          0; share of the sky, 0 to 1, for its thermal radiation
 thermal        that of the sky (Brutsaert 1975) and of a ground as warm as the air, W m-2; radiation that meets both sides
