@@ -17,10 +17,9 @@ constexpr Counter bits(Counter counter, Key key) {
     for (int round = 0; round < rounds; ++round) {
         const std::uint64_t product0 = std::uint64_t{multiplier0} * counter[0];
         const std::uint64_t product1 = std::uint64_t{multiplier1} * counter[2];
-        counter = {static_cast<std::uint32_t>(product1 >> 32) ^ counter[1] ^ key[0],
-                   static_cast<std::uint32_t>(product1),
-                   static_cast<std::uint32_t>(product0 >> 32) ^ counter[3] ^ key[1],
-                   static_cast<std::uint32_t>(product0)};
+        counter = {
+            static_cast<std::uint32_t>(product1 >> 32) ^ counter[1] ^ key[0], static_cast<std::uint32_t>(product1),
+            static_cast<std::uint32_t>(product0 >> 32) ^ counter[3] ^ key[1], static_cast<std::uint32_t>(product0)};
         key = {key[0] + step0, key[1] + step1};
     }
     return counter;

@@ -36,7 +36,8 @@ constexpr std::size_t samples_at_once = 8;
 __attribute__((target("avx2"))) void sample_eight(std::uint64_t key, std::uint32_t step, const std::uint64_t* owners,
                                                   const std::uint32_t* numbers, std::uint64_t* samples) {
     constexpr int vectors = 2, lanes = 4;
-    const __m256i multiplier0 = _mm256_set1_epi64x(philox::multiplier0), multiplier1 = _mm256_set1_epi64x(philox::multiplier1);
+    const __m256i multiplier0 = _mm256_set1_epi64x(philox::multiplier0),
+                  multiplier1 = _mm256_set1_epi64x(philox::multiplier1);
     __m256i counter[4][vectors];
     for (int v = 0; v < vectors; ++v) {
         counter[0][v] = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(owners + lanes * v));

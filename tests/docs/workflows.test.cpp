@@ -37,8 +37,8 @@ public:
     }
 
     int shell(const std::string& command) const {
-        return code_of(std::system(("cd '" + path().string() + "' && PATH=\"$PWD/bin:$PATH\" HOME=\"$PWD\" && " +
-                                    "{ " + command + "; } >.out 2>.err </dev/null")
+        return code_of(std::system(("cd '" + path().string() + "' && PATH=\"$PWD/bin:$PATH\" HOME=\"$PWD\" && " + "{ " +
+                                    command + "; } >.out 2>.err </dev/null")
                                        .c_str()));
     }
     fs::path run_of(int seed) const { return path() / "output/seeds" / std::to_string(seed); }

@@ -126,6 +126,8 @@ TEST_CASE_METHOD(ObjectFolder, "without specifications files are recognised by t
     std::filesystem::remove(folder().path() / "other.l");
     std::filesystem::remove(folder().path() / "plant.mat");
     folder().write(".hidden.l", model);
+    folder().write("README.txt", "a plant\n");
+    folder().write("heights.csv", "day,height\n1,0.2\n");
     const ObjectFiles object = read();
     CHECK(name_of(object.model) == "plant.l");
     CHECK(name_of(object.view) == "plant.v");
@@ -146,7 +148,8 @@ TEST_CASE_METHOD(ObjectFolder, "the model of an object may be in any notation", 
     std::filesystem::remove(folder().path() / "straw.sdl");
     CHECK(name_of(read().model) == "stem.pgraph");
     std::filesystem::remove(folder().path() / "stem.pgraph");
-    CHECK_THAT(message(), Contains("nor one that ends in .l, .xml, .csv, .txt, .dgf, .mtg, .opf, .ops, .pgraph, .rparam, .rsml, .sdl"));
+    CHECK_THAT(message(),
+               Contains("nor one that ends in .l, .xml, .dgf, .mtg, .opf, .ops, .pgraph, .rparam, .rsml, .sdl"));
 }
 
 TEST_CASE_METHOD(ObjectFolder, "a choice that is not clear is an error that names the choices", "[simulation]") {

@@ -328,8 +328,7 @@ TEST_CASE("pieces that others write are in the index once they are there, and mi
         other->record(part);
         timeline.record(last);
         const std::string index = bytes_of(folder.path / "plants.pvd");
-        CHECK_THAT(index,
-                   Catch::Contains("plants/0003.vtp") && Catch::Contains("plants/0003-1.vtp"));
+        CHECK_THAT(index, Catch::Contains("plants/0003.vtp") && Catch::Contains("plants/0003-1.vtp"));
     }
     SECTION("the other went to another folder") {
         CHECK_THROWS_WITH(timeline.record(last), Catch::Contains("0003-1.vtp is not there"));

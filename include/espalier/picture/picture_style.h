@@ -61,7 +61,8 @@ struct PictureStyle {
     std::optional<std::uint32_t> plant;          ///< this one alone, by its number; none: all
     std::vector<FieldLook> fields;
     PictureBackground background = light_background;
-    bool ground = false;  ///< at height 0: a disc through which roots are seen; in the light of a sky, up to the horizon
+    bool ground =
+        false;  ///< at height 0: a disc through which roots are seen; in the light of a sky, up to the horizon
     bool shading = true;  ///< shadows and what hides in corners; false: lit surfaces only
     bool textures = true;
     std::string bark;        ///< the texture of axes that wear none: a file; "": none

@@ -18,11 +18,11 @@ struct RenderJob {
     std::vector<const RecordedFrame*> frames;  ///< at least one; a film may show one several times
     PictureStyle style;
     CameraPlace camera;
-    double orbit = 0;            ///< degrees that the camera goes round while the frames pass
+    double orbit = 0;  ///< degrees that the camera goes round while the frames pass
     /// None: where it cuts through nothing that is drawn, and no field is; with paths of light, where not more grows
     /// below it than above.
     std::optional<bool> ground;
-    bool follow = false;         ///< the camera frames each frame anew, instead of all together
+    bool follow = false;  ///< the camera frames each frame anew, instead of all together
     PictureSize size{1200, 900};
     /// Told after each frame that was drawn.
     std::function<void(std::size_t drawn, std::size_t all)> progress;

@@ -203,8 +203,9 @@ Residuals residuals_of(const GasExchange& found, const LeafKind& leaf, const Lea
     Residuals residuals;
     residuals.carbon = std::max(
         relative(used - found.assimilation, {used, found.assimilation, respired}),
-        found.conductance > 0 ? relative(supplied - found.assimilation, {found.conductance * found.at_surface / vapour_to_carbon})
-                              : 0);
+        found.conductance > 0
+            ? relative(supplied - found.assimilation, {found.conductance * found.at_surface / vapour_to_carbon})
+            : 0);
     residuals.stomata = relative(opening - found.conductance, {opening, found.conductance});
     residuals.vapour = relative(evaporated - found.transpiration, {evaporated, found.transpiration});
     residuals.energy = relative(absorbed(leaf, light) - found.sent - found.sensible - found.latent,

@@ -178,6 +178,7 @@ void take_colours(const fs::path& folder, ObjectFiles& object) {
 void take_by_extension(const fs::path& folder, ObjectFiles& object) {
     std::vector<std::string> extensions{".l"};
     for (const auto& [name, notation] : registered<NotationType>()) {
+        if (notation->recognises) continue;  // a README.txt beside a model is no cylinder model
         const bool is_known = std::find(extensions.begin(), extensions.end(), notation->extension) != extensions.end();
         if (!is_known) extensions.push_back(notation->extension);
     }

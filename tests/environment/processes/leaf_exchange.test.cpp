@@ -43,7 +43,8 @@ double of_plant(const Environment& environment, const std::string& quantity) {
 }  // namespace
 
 TEST_CASE("a leaf in a scene does what one leaf alone does in the same light", "[leaf-exchange]") {
-    Environment environment = scene(light + leaves + "nir = 0.3\nthermal = 790\nwind = 1.5\ng0 = 0\ntemperature = 24\n");
+    Environment environment =
+        scene(light + leaves + "nir = 0.3\nthermal = 790\nwind = 1.5\ng0 = 0\ntemperature = 24\n");
     AskingPlants plants = one_leaf();
     plants.exchange(environment, 1);
     const double photons = environment.organ_values("light.flux", 0)->at(1);
