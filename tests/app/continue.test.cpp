@@ -7,7 +7,7 @@
 
 #include <filesystem>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 using nlohmann::json;
 namespace fs = std::filesystem;
 

@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <numeric>
 #include <tuple>
 
 using namespace espalier;

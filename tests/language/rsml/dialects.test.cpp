@@ -46,7 +46,7 @@ std::vector<double> root_days(const language::MeasuredPlants& plants, std::size_
 }
 
 auto near_values(const std::vector<double>& values) {
-    return Catch::Approx(values).margin(1e-12);
+    return Catch::Matchers::Approx(values).margin(1e-12);
 }
 
 }  // namespace
