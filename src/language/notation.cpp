@@ -12,6 +12,7 @@
 #include <functional>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace espalier::language {
 
@@ -27,10 +28,10 @@ std::string head_of(const std::filesystem::path& path) {
     return head;
 }
 
-MeasuredPlants measured(const NotationType& notation, const std::string& text, const std::filesystem::path& path,
+MeasuredPlants measured(const NotationType& notation, std::string text, const std::filesystem::path& path,
                         const MeasuredOptions& options) {
     require_text(text, path.string());
-    MeasuredPlants plants = notation.measure(with_plain_lines(text), path, options);
+    MeasuredPlants plants = notation.measure(with_plain_lines(std::move(text)), path, options);
     plants.path = path;
     for (auto axis = plants.axes.rbegin(); axis != plants.axes.rend(); ++axis) {
         if (!axis->bearer) plants.plants[axis->plant].base = axis->nodes.front().at;

@@ -19,15 +19,15 @@ void require_text(const std::string& text, const std::string& name) {
     }
 }
 
-std::string with_plain_lines(const std::string& text) {
-    std::string plain;
-    plain.reserve(text.size());
+std::string with_plain_lines(std::string text) {
+    std::size_t end = 0;
     for (std::size_t k = byte_order_mark(text); k < text.size(); ++k) {
         const bool ends_line = text[k] == '\r';
         if (ends_line && k + 1 < text.size() && text[k + 1] == '\n') ++k;
-        plain += ends_line ? '\n' : text[k];
+        text[end++] = ends_line ? '\n' : text[k];
     }
-    return plain;
+    text.resize(end);
+    return text;
 }
 
 }  // namespace espalier::language

@@ -9,6 +9,6 @@ namespace espalier::language {
 void require_text(const std::string& text, const std::string& name);
 
 /// The text with line feeds for every way to end a line, and without the mark of UTF-8 at its beginning.
-std::string with_plain_lines(const std::string& text);
+std::string with_plain_lines(std::string text);
 
 }  // namespace espalier::language
