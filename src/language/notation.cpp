@@ -74,6 +74,12 @@ bool holds_measured_plants(const std::filesystem::path& path) {
 MeasuredPlants read_measured_plants(const std::filesystem::path& path, const MeasuredOptions& options) {
     const NotationType* const notation = notation_of(path);
     if (notation && notation->measure) return measured(*notation, read_text(path), path, options);
+    if (head_of(path).starts_with("MATLAB")) {
+        throw UserError(
+            fmt::format("{} is a MATLAB file, as TreeQSM writes: write its cylinders as a table there, with "
+                        "writetable(struct2table(QSM.cylinder), 'tree.csv')",
+                        path.string()));
+    }
     const std::string extensions = extensions_of([](const NotationType& known) { return known.measure != nullptr; });
     throw UserError(fmt::format("{} is no file of measured plants: their extensions are{}", path.string(), extensions));
 }

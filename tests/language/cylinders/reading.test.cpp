@@ -2,6 +2,7 @@
 #include "catch.h"
 #include "language/cylinders/dialect.h"
 #include "language/measured_file.h"
+#include "temporary_folder.h"
 
 #include <numbers>
 #include <string>
@@ -123,4 +124,10 @@ TEST_CASE("cylinders: malformed tables end in one line", "[cylinders]") {
                Catch::Contains("the number 2 stands on line 4, too"));
     CHECK_THAT(cylinder_table.mistake(std::string(1'000'000, ',') + "\n"),
                Catch::Contains("no header of a cylinder model"));
+}
+
+TEST_CASE("a MATLAB file is told how its cylinders become a table", "[cylinders]") {
+    const TemporaryFolder folder;
+    CHECK_THROWS_WITH(read_measured_plants(folder.write("tree.mat", "MATLAB 5.0 MAT-file, Platform: GLNXA64")),
+                      Catch::Contains("tree.mat is a MATLAB file, as TreeQSM writes: write its cylinders as a table"));
 }
