@@ -28,6 +28,7 @@ public:
 
     /// Begins, with one page that has said hello.
     ListeningPage& begin() {
+        session.reset();  // two would share one scratch folder
         session = std::make_unique<espalier::studio::Session>(
             options, [this](std::function<void()> work) { mailbox.post(std::move(work)); });
         version_ = 0;
