@@ -68,13 +68,18 @@ public:
           near_infrared_(settings.number_or("nir", 0.25, Range::between(0, 10))),
           potential_(settings.number_or("potential", 0, Range::between(-20, 0))),
           days_(settings.number_or("days", 1, Range::positive())),
-          leaves_(context.plants) {}
+          leaves_(context.plants),
+          residuals_(context.plants, 0) {}
 
     void advance(const WorldView& world, std::span<const Query>, Fields&) override {
         if (!world.environment) throw RunError("leaf-exchange works in a scene's exchange only");
-        require_light(*world.environment);
+        find_light(*world.environment);
         seconds_ = world.dt * days_ * seconds_per_day;
+        now_ = air_.air();
+        dark_ = {0, 0, air_.thermal_radiation()};
+        unlit_ = gas_exchange(kind_, dark_, now_, potential_);
         for (std::vector<LeafStep>& plant : leaves_) plant.clear();
+        std::fill(residuals_.begin(), residuals_.end(), 0);
         for (const PlantView& plant : world.plants) {
             if (plant.plant < leaves_.size()) breathe(plant, *world.environment, world.step > 0);
         }
@@ -148,12 +153,15 @@ public:
     Spreading spreading() const override { return Spreading::plants; }
 
 private:
-    void require_light(const Environment& environment) const {
+    void find_light(const Environment& environment) {
         const auto light = environment.find(light_), self = environment.find(name_);
         const std::vector<OrganQuantity> all = environment.organ_quantities();
-        const bool measures = std::any_of(
-            all.begin(), all.end(), [&](const OrganQuantity& quantity) { return quantity.name == light_ + ".power"; });
-        if (light && measures && *light < *self) return;
+        const auto measures = [&](const std::string& quantity) {
+            return std::any_of(all.begin(), all.end(),
+                               [&](const OrganQuantity& one) { return one.name == light_ + quantity; });
+        };
+        has_near_infrared_ = measures(".power.nir");
+        if (light && measures(".power") && *light < *self) return;
         throw UserError(
             light_place_,
             fmt::format("'{}' needs a canopy-light or a ray-light called '{}', before it in the scene", name_, light_));
@@ -163,51 +171,41 @@ private:
         const auto values = [&](const char* quantity) {
             return environment.organ_values(light_ + "." + quantity, plant.plant);
         };
-        const OrganLightValues light{values("power"), has_band(environment) ? values("power.nir") : nullptr,
+        const OrganLightValues light{values("power"), has_near_infrared_ ? values("power.nir") : nullptr,
                                      values("area"), values("lit")};
         std::vector<LeafStep>& leaves = leaves_[plant.plant];
         if (!light.area || !light.power || !light.lit) return;
         leaves.assign(light.area->size(), {});
         std::vector<double> residuals(leaves.size(), 0);
+        const double in_the_dark = residuals_of(unlit_, kind_, dark_, now_, potential_).largest();
         for_in_parallel(std::size_t{0}, leaves.size(), [&](std::size_t i) {
             const float area = (*light.area)[i];
             if (!(area > 0)) return;
             leaves[i].area = area;
-            residuals[i] = exchange(leaves[i], light_on(light, i), (*light.lit)[i], has_time_passed);
+            const double residual = exchange(leaves[i], light_on(light, i), (*light.lit)[i], has_time_passed);
+            residuals[i] = std::max(in_the_dark, residual);
         });
-        residuals_.resize(leaves_.size(), 0);
         residuals_[plant.plant] = leaves.empty() ? 0 : *std::max_element(residuals.begin(), residuals.end());
-    }
-
-    bool has_band(const Environment& environment) const {
-        const std::vector<OrganQuantity> all = environment.organ_quantities();
-        return std::any_of(all.begin(), all.end(),
-                           [&](const OrganQuantity& quantity) { return quantity.name == light_ + ".power.nir"; });
     }
 
     LeafLight light_on(const OrganLightValues& values, std::size_t module) const {
         const double power = (*values.power)[module];
-        if (!(power > 0)) return {};
+        if (!(power > 0)) return dark_;
         const double near = values.near_infrared ? (*values.near_infrared)[module] : near_infrared_ * power;
-        return {4.57 * power, near, 0};
+        return {4.57 * power, near, dark_.thermal};
     }
 
     /// Returns the largest residual.
-    double exchange(LeafStep& leaf, LeafLight light, double lit, bool has_time_passed) const {
-        const Air air = air_.air();
-        light.thermal = air_.thermal_radiation();
-        const LeafLight dark{0, 0, light.thermal};
-        leaf.lit = gas_exchange(kind_, light, air, potential_);
-        const GasExchange unlit = gas_exchange(kind_, dark, air, potential_);
+    double exchange(LeafStep& leaf, const LeafLight& light, double lit, bool has_time_passed) const {
+        leaf.lit = gas_exchange(kind_, light, now_, potential_);
         if (has_time_passed) {
             const double dark_seconds = std::max(0.0, seconds_ - lit);
             const double bright = std::min(lit, seconds_);
-            leaf.gain = 1e-6 * leaf.area * (leaf.lit.assimilation * bright + unlit.assimilation * dark_seconds);
-            leaf.water = leaf.area * (leaf.lit.transpiration * bright + unlit.transpiration * dark_seconds) *
+            leaf.gain = 1e-6 * leaf.area * (leaf.lit.assimilation * bright + unlit_.assimilation * dark_seconds);
+            leaf.water = leaf.area * (leaf.lit.transpiration * bright + unlit_.transpiration * dark_seconds) *
                          water_molar_mass * 1000 / water_density;
         }
-        return std::max(residuals_of(leaf.lit, kind_, light, air, potential_).largest(),
-                        residuals_of(unlit, kind_, dark, air, potential_).largest());
+        return residuals_of(leaf.lit, kind_, light, now_, potential_).largest();
     }
 
     LeafStep leaf_behind(const Query& query) const {
@@ -221,7 +219,12 @@ private:
     LeafKind kind_;
     SceneAir air_;
     double near_infrared_, potential_, days_;
-    double seconds_ = 0;                         ///< of the step
+    // Of the step.
+    double seconds_ = 0;
+    bool has_near_infrared_ = false;  ///< the light measures it
+    Air now_;
+    LeafLight dark_;
+    GasExchange unlit_;                          ///< of every leaf in the dark
     std::vector<std::vector<LeafStep>> leaves_;  ///< of each plant, by module
     std::vector<double> residuals_;
 };
