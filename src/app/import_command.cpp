@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "base/toml_text.h"
 #include "command.h"
+#include "language/measured/units.h"
 
 #include <fmt/format.h>
 
@@ -21,10 +22,10 @@ public:
         app().add_option("file", file_, "a file in a notation of measured plants: rsml, mtg, ...")->required();
         app()
             .add_option("--unit", options_.unit, "the unit of its lengths, whatever it says")
-            ->check(CLI::IsMember({"m", "dm", "cm", "mm", "um", "inch"}));
+            ->check(CLI::IsMember(language::measured::length_units()));
         app()
             .add_option("--up", options_.up, "which of its axes points upwards, whatever it says")
-            ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
+            ->check(CLI::IsMember(language::measured::upward_axes()));
         app().add_option("--pixel", pixel_, "lengths are pixels of this width, mm")->check(CLI::PositiveNumber);
         app()
             .add_option("--plants", plants_,

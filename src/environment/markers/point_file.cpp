@@ -115,9 +115,9 @@ std::vector<glm::dvec3> read_point_file(const Settings& table, std::size_t most,
     const std::filesystem::path file = table.path("file");
     const Place place = table.place("file");
     const double metres =
-        *language::measured::metres_of(table.choice_or("unit", "m", {"m", "dm", "cm", "mm", "um", "inch"}));
+        *language::measured::metres_of(table.choice_or("unit", "m", language::measured::length_units()));
     const glm::dmat3 upright = language::measured::upright(
-        table.choice_or("up", is_mesh(file) ? "y" : "z", {"x", "y", "z", "-x", "-y", "-z"}));
+        table.choice_or("up", is_mesh(file) ? "y" : "z", language::measured::upward_axes()));
     std::vector<glm::dvec3> points = points_of(file, place, warnings);
     if (points.empty()) throw UserError(place, fmt::format("{} has no points", file.string()));
     if (points.size() > most) {

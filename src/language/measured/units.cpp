@@ -10,6 +10,16 @@
 
 namespace espalier::language::measured {
 
+const std::vector<std::string>& length_units() {
+    static const std::vector<std::string> words{"m", "dm", "cm", "mm", "um", "inch"};
+    return words;
+}
+
+const std::vector<std::string>& upward_axes() {
+    static const std::vector<std::string> words{"x", "y", "z", "-x", "-y", "-z"};
+    return words;
+}
+
 std::optional<double> metres_of(std::string_view unit) {
     struct Spelling {
         std::string_view word;

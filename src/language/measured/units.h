@@ -6,8 +6,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace espalier::language::measured {
+
+/// What users may say: "m", "dm", "cm", "mm", "um", "inch", and "x", "y", "z", "-x", "-y", "-z".
+const std::vector<std::string>& length_units();
+const std::vector<std::string>& upward_axes();
 
 /// The metres of "m", "dm", "cm", "mm", "um" or "inch", in their usual spellings; nothing for other words.
 std::optional<double> metres_of(std::string_view unit);

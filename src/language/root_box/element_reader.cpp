@@ -17,10 +17,14 @@ namespace {
 constexpr double largest_number = 1e12;
 
 /// Parameters that are a mean with a deviation.
-struct VariedRow {
+/// A parameter's name, and where its value goes.
+template <class Owner, class Value>
+struct Row {
     std::string_view name;
-    Varied RootType::*member;
+    Value Owner::*member;
 };
+
+using VariedRow = Row<RootType, Varied>;
 constexpr std::array varied_rows{
     VariedRow{"lb", &RootType::basal_zone}, VariedRow{"la", &RootType::apical_zone},
     VariedRow{"ln", &RootType::spacing},    VariedRow{"lmax", &RootType::final_length},
@@ -28,30 +32,21 @@ constexpr std::array varied_rows{
     VariedRow{"theta", &RootType::angle},   VariedRow{"rlt", &RootType::life_time},
 };
 
-struct NumberRow {
-    std::string_view name;
-    double RootType::*member;
-};
+using NumberRow = Row<RootType, double>;
 constexpr std::array number_rows{
     NumberRow{"tropismN", &RootType::trials},
     NumberRow{"tropismS", &RootType::sigma},
     NumberRow{"dx", &RootType::resolution},
 };
 
-struct WholeRow {
-    std::string_view name;
-    int RootType::*member;
-};
+using WholeRow = Row<RootType, int>;
 constexpr std::array whole_rows{
     WholeRow{"gf", &RootType::growth},
     WholeRow{"tropismT", &RootType::tropism},
     WholeRow{"subType", &RootType::type},
 };
 
-struct SeedRow {
-    std::string_view name;
-    double Seed::*member;
-};
+using SeedRow = Row<Seed, double>;
 constexpr std::array seed_rows{
     SeedRow{"firstB", &Seed::first_basal},
     SeedRow{"delayB", &Seed::delay_basal},

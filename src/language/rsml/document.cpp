@@ -188,7 +188,7 @@ private:
         if (!options_.up.empty()) return options_.up;
         if (file_.up && !file_.up->empty()) {
             const std::string word = file_.up->starts_with('+') ? file_.up->substr(1) : *file_.up;
-            for (const char* const known : {"x", "y", "z", "-x", "-y", "-z"}) {
+            for (const std::string& known : measured::upward_axes()) {
                 if (word == known) return word;
             }
             notes_.warn(fmt::format("<up> is x, y, z, -x, -y or -z, not '{}': it is not used", escaped(*file_.up)));
