@@ -2,6 +2,8 @@
 
 #include "espalier/base/math.h"
 
+#include "environment/leaf/air.h"
+
 #include <algorithm>
 #include <cmath>
 
