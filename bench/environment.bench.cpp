@@ -1,8 +1,8 @@
 // Processes that search: collisions, cells, and light between balls of leaves.
 #include "espalier/simulation/world.h"
 
-#include "environment/exchange_plants.h"
-#include "environment/markers/colonization.h"
+#include "environment/exchange/exchange_plants.h"
+#include "environment/space/markers/colonization.h"
 #include "table.h"
 
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 // The exchange and the fields behind it: a question's round trip, shade rebuilt and changed, water diffusing.
-#include "environment/exchange_plants.h"
-#include "environment/shade/field.h"
-#include "environment/water/soil.h"
+#include "environment/exchange/exchange_plants.h"
+#include "environment/light/shade/field.h"
+#include "environment/soil/linear/soil.h"
 #include "table.h"
 
 #include <algorithm>

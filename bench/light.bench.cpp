@@ -2,9 +2,9 @@
 // paths of pictures.
 #include "base/parallel.h"
 #include "base/sobol.h"
-#include "environment/canopy/scattering.h"
-#include "environment/lit_leaves.h"
-#include "environment/rays/light_paths.h"
+#include "environment/light/canopy/scattering.h"
+#include "environment/light/lit_leaves.h"
+#include "environment/light/rays/light_paths.h"
 #include "geometry/rays/embree.h"
 #include "geometry/vectors.h"
 #include "picture/light/path_tracer.h"

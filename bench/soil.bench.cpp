@@ -2,9 +2,9 @@
 // in a tree of roots. A solute that moves.
 #include "espalier/environment/environment_process.h"
 
-#include "environment/roots/hydraulic_tree.h"
-#include "environment/soil/column.h"
-#include "environment/soil/reference.h"
+#include "environment/soil/richards/column.h"
+#include "environment/soil/richards/reference.h"
+#include "environment/soil/roots/hydraulic_tree.h"
 #include "table.h"
 
 #include <algorithm>

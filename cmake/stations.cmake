@@ -1,10 +1,10 @@
 # A station's sources as OBJECT libraries, because parts register themselves: a static archive would drop them without a
 # word. The folders named by <station>_GRIDS need OpenVDB and Eigen, and become a library of their own.
 set(geometry_GRIDS grids rays)
-set(environment_GRIDS canopy external markers neighbours optics processes rays roots shade shapes sky soil solutes water)
+set(environment_GRIDS given leaf light soil space)
 
 # Eigen adds in the order of the source: vectors of another processor would add in another, and fuse.
-set_source_files_properties(src/environment/water/steady.cpp src/analysis/least_squares.cpp PROPERTIES
+set_source_files_properties(src/environment/soil/linear/steady.cpp src/analysis/least_squares.cpp PROPERTIES
   COMPILE_DEFINITIONS EIGEN_DONT_VECTORIZE)
 
 function(add_objects name)

@@ -53,7 +53,8 @@ function(compile_at_once group)
 endfunction()
 
 # What these define in unnamed namespaces has the names of their neighbours'. Files of open folders are always alone.
-file(GLOB alone src/environment/processes/*.cpp src/turtle/stages/*.cpp src/language/notations/*.cpp
+file(GLOB alone src/environment/given/*.cpp src/environment/leaf/*.cpp src/environment/light/*.cpp
+  src/environment/soil/*.cpp src/environment/space/*.cpp src/turtle/stages/*.cpp src/language/notations/*.cpp
   src/timeline/recorders/*.cpp src/formats/exporters/*.cpp)
 set_source_files_properties(${alone} src/language/side_files/curve_file.cpp src/archive/meshes/limb_level_set.cpp
   src/turtle/walk/string_walk.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

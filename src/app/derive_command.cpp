@@ -10,7 +10,7 @@
 #include "options.h"
 #include "simulation/object/plain_lines.h"
 #include "simulation/run/allowed_memory.h"
-#include "simulation/world/insertion.h"
+#include "simulation/scene/insertion.h"
 #include "trust.h"
 #include "turtle/asking.h"
 #include "turtle/terminals.h"

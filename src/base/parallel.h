@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
+#include <cstddef>
 #include <type_traits>
 #include <utility>
 
@@ -66,6 +67,15 @@ Value reduce_in_parallel(const Range& range, const Value& identity, const Add& a
             const SharedWork::Part shared(work);
             return join(std::move(a), b);
         });
+}
+
+/// body(i) for each i below `count`, by this thread alone if there is little to do; `work` is about how many simple
+/// things all of them do.
+template <class Body>
+void for_each_if_worth(std::size_t count, std::size_t work, const Body& body) {
+    constexpr std::size_t worth_sharing = 20000;
+    if (work >= worth_sharing) return for_in_parallel(std::size_t{0}, count, body);
+    for (std::size_t i = 0; i < count; ++i) body(i);
 }
 
 }  // namespace espalier

@@ -4,7 +4,7 @@
 #include "espalier/language/model_settings.h"
 
 #include "language/preprocessor/preprocessor.h"
-#include "language/source.h"
+#include "language/text/source.h"
 
 #include <set>
 #include <string>

@@ -3,7 +3,7 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
 
-#include "language/plain_text.h"
+#include "language/text/plain_text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -28,8 +28,8 @@ std::string head_of(const std::filesystem::path& path) {
     return head;
 }
 
-MeasuredPlants measured(const NotationType& notation, std::string text, const std::filesystem::path& path,
-                        const MeasuredOptions& options) {
+MeasuredPlants plants_of(const NotationType& notation, std::string text, const std::filesystem::path& path,
+                         const MeasuredOptions& options) {
     require_text(text, path.string());
     MeasuredPlants plants = notation.measure(with_plain_lines(std::move(text)), path, options);
     plants.path = path;
@@ -73,7 +73,7 @@ bool holds_measured_plants(const std::filesystem::path& path) {
 
 MeasuredPlants read_measured_plants(const std::filesystem::path& path, const MeasuredOptions& options) {
     const NotationType* const notation = notation_of(path);
-    if (notation && notation->measure) return measured(*notation, read_text(path), path, options);
+    if (notation && notation->measure) return plants_of(*notation, read_text(path), path, options);
     if (head_of(path).starts_with("MATLAB")) {
         throw UserError(
             fmt::format("{} is a MATLAB file, as TreeQSM writes: write its cylinders as a table there, with "
@@ -86,7 +86,7 @@ MeasuredPlants read_measured_plants(const std::filesystem::path& path, const Mea
 
 TranslatedText translated(const NotationType& notation, const std::string& text, const std::filesystem::path& path) {
     if (notation.measure) {
-        const MeasuredPlants plants = measured(notation, text, path, {});
+        const MeasuredPlants plants = plants_of(notation, text, path, {});
         return {measured_model_text(plants), {}, plants.warnings};
     }
     require_text(text, path.string());

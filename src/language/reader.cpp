@@ -4,11 +4,11 @@
 #include "espalier/language/notation.h"
 
 #include "language/definitions.h"
-#include "language/other_language.h"
 #include "language/parser/model.h"
-#include "language/plain_text.h"
 #include "language/preprocessor/preprocessor.h"
-#include "language/source.h"
+#include "language/text/other_language.h"
+#include "language/text/plain_text.h"
+#include "language/text/source.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // One interpretation: in parallel where that gives the same, else in one piece.
 #include "espalier/turtle/interpretation.h"
 
-#include "language/vector_field.h"
+#include "language/parser/vector_field.h"
 #include "turtle/walk/parallel_walk.h"
 #include "turtle/walk/symbol_table.h"
 

@@ -74,8 +74,8 @@ TEST_CASE("the symbol of the page on the turtle compiles in the file that the pa
 TEST_CASE("the process of the page on processes compiles, and so does its test", "[docs]") {
     const std::vector<std::string> code = cpp_of("docs/environment-processes.md");
     REQUIRE(code.size() == 2);
-    CHECK(complaints(code[0], "src/environment/processes/honda81.cpp") == "");
-    CHECK(complaints(code[1], "tests/environment/environment.test.cpp") == "");
+    CHECK(complaints(code[0], "src/environment/space/honda81.cpp") == "");
+    CHECK(complaints(code[1], "tests/environment/exchange/environment.test.cpp") == "");
 }
 
 TEST_CASE("the recorder of the page on timelines compiles", "[docs]") {

@@ -93,8 +93,8 @@ TEST_CASE("Every header that an example of a page includes is there", "[docs]") 
 
 TEST_CASE("Every file that a page names in the tree is there", "[docs]") {
     static const std::regex named("`((src|include|tests|models|environments|docs)/[A-Za-z0-9_./-]+)`");
-    const std::set<std::string> of_examples{"src/environment/processes/height.cpp",
-                                            "tests/environment/processes/height.test.cpp",
+    const std::set<std::string> of_examples{"src/environment/light/height.cpp",
+                                            "tests/environment/light/height.test.cpp",
                                             "src/timeline/recorders/sizes.cpp"};
     std::size_t checked = 0;
     for (const fs::path& page : all_pages()) {

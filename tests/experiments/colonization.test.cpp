@@ -1,6 +1,6 @@
 // Space colonization as an open L-system: its nodes are those of the algorithm written down plainly.
 #include "catch.h"
-#include "environment/markers/cloud.h"
+#include "environment/space/markers/cloud.h"
 #include "experiments/growth.h"
 #include "turtle/internode_bearers.h"
 

@@ -4,7 +4,7 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
 
-#include "environment/sky/scene_sky.h"
+#include "environment/light/sky/scene_sky.h"
 #include "seeds_on_request.h"
 #include "simulation/run/recorded_command.h"
 #include "simulation/run/written_files.h"

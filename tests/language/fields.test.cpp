@@ -1,7 +1,7 @@
 // Fields: vectors by expressions of a place.
 #include "catch.h"
+#include "language/parser/vector_field.h"
 #include "language/reading.h"
-#include "language/vector_field.h"
 
 using namespace espalier;
 using namespace espalier::test;

@@ -4,7 +4,7 @@
 
 #include "catch.h"
 #include "language/growing.h"
-#include "language/marks.h"
+#include "language/text/marks.h"
 #include "temporary_folder.h"
 
 #include <fmt/format.h>

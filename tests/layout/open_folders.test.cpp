@@ -23,7 +23,7 @@ std::string part_name(const fs::path& file) {
 std::set<std::string> parts_in(const fs::path& folder) {
     std::set<std::string> names;
     for (const fs::path& file : sources_below(folder)) {
-        if (file.extension() == ".cpp") names.insert(part_name(file));
+        if (file.extension() == ".cpp" && file.parent_path() == folder) names.insert(part_name(file));
     }
     return names;
 }
@@ -37,9 +37,14 @@ std::set<std::string> names_of() {
 
 }  // namespace
 
-TEST_CASE("every file of environment/processes registers the process it is named after", "[layout]") {
-    CHECK(!parts_in("src/environment/processes").empty());
-    CHECK(parts_in("src/environment/processes") == names_of<espalier::ProcessType>());
+TEST_CASE("every file of a subject of the environment registers the process it is named after", "[layout]") {
+    std::set<std::string> parts;
+    for (const char* subject : {"given", "leaf", "light", "soil", "space"}) {
+        const std::set<std::string> of_subject = parts_in(fs::path("src/environment") / subject);
+        CHECK(!of_subject.empty());
+        parts.insert(of_subject.begin(), of_subject.end());
+    }
+    CHECK(parts == names_of<espalier::ProcessType>());
 }
 
 TEST_CASE("every process explains itself", "[layout]") {

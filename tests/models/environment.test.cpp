@@ -1,6 +1,6 @@
 // Models that live by collision and by questions to the turtle: Ulam, Honda 1981, canalisation, queries.
 #include "catch.h"
-#include "environment/ulam_automaton.h"
+#include "environment/space/ulam_automaton.h"
 #include "experiments/growth.h"
 #include "models/measure.h"
 

@@ -1,6 +1,6 @@
 #include "catch.h"
-#include "environment/lit_leaves.h"
-#include "environment/rays/lit_triangles.h"
+#include "environment/light/lit_leaves.h"
+#include "environment/light/rays/lit_triangles.h"
 #include "experiments/growth.h"
 
 #include <glm/geometric.hpp>

@@ -1,5 +1,5 @@
 // Modules that are put into a string while it grows: what the mouse did in a window.
-#include "simulation/world/insertion.h"
+#include "simulation/scene/insertion.h"
 
 #include "espalier/base/error.h"
 #include "espalier/simulation/simulation.h"

@@ -1,4 +1,4 @@
-// A part of the world that answers queries. One file in src/environment/processes/ per process.
+// A part of the world that answers queries. One file of its subject in src/environment/ per process.
 #pragma once
 
 #include "espalier/base/random.h"
@@ -144,7 +144,7 @@ public:
     virtual void restore(std::istream&) {}
 };
 
-/// What a file of src/environment/processes/ registers.
+/// What the file of a process registers.
 struct ProcessType {
     std::string name;     ///< what scenes say: process = "..."
     std::string summary;  ///< a line

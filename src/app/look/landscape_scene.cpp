@@ -2,7 +2,7 @@
 
 #include "archive/meshes/texture_file.h"
 #include "landscape_species.h"
-#include "language/vector_field.h"
+#include "language/parser/vector_field.h"
 #include "picture/stage/daylight.h"
 #include "picture_options.h"
 

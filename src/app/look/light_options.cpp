@@ -3,7 +3,7 @@
 #include "espalier/base/error.h"
 
 #include "base/number.h"
-#include "environment/sky/scene_sky.h"
+#include "environment/light/sky/scene_sky.h"
 
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>

@@ -15,7 +15,7 @@
 #include "base/json_text.h"
 #include "base/number.h"
 #include "base/text.h"
-#include "environment/markers/end_of_growth.h"
+#include "environment/space/markers/end_of_growth.h"
 #include "mesh_file_options.h"
 
 #include <fmt/format.h>

@@ -2,8 +2,8 @@
 #include "espalier/base/file.h"
 #include "espalier/language/notation.h"
 
-#include "language/plain_text.h"
 #include "language/root_box/parameters.h"
+#include "language/text/plain_text.h"
 
 namespace espalier::language {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "base/text.h"
 #include "language/parser/constant.h"
-#include "language/vector_field.h"
+#include "language/parser/vector_field.h"
 
 #include <fmt/format.h>
 

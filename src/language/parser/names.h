@@ -3,7 +3,7 @@
 
 #include "espalier/lsystem/lsystem.h"
 
-#include "language/source.h"
+#include "language/text/source.h"
 
 #include <map>
 #include <optional>

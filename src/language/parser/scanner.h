@@ -4,7 +4,7 @@
 #include "espalier/base/stop.h"
 
 #include "base/characters.h"
-#include "language/source.h"
+#include "language/text/source.h"
 
 #include <string>
 #include <string_view>

@@ -1,7 +1,7 @@
 // The symbols of modules: one code point each, or a name the model declares.
 #pragma once
 
-#include "language/source.h"
+#include "language/text/source.h"
 
 #include <functional>
 #include <map>

@@ -1,6 +1,6 @@
 #include "language/pgraph/model_text.h"
 
-#include "language/marks.h"
+#include "language/text/marks.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

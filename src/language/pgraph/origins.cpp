@@ -1,7 +1,7 @@
 #include "language/pgraph/origins.h"
 
 #include "base/characters.h"
-#include "language/marks.h"
+#include "language/text/marks.h"
 
 #include <algorithm>
 

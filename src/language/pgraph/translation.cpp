@@ -1,7 +1,7 @@
 #include "language/pgraph/translation.h"
 
-#include "language/marks.h"
 #include "language/pgraph/model_text.h"
+#include "language/text/marks.h"
 
 #include <fmt/format.h>
 

@@ -4,8 +4,8 @@
 
 #include "base/characters.h"
 #include "base/text.h"
-#include "language/marks.h"
-#include "language/vector_field.h"
+#include "language/parser/vector_field.h"
+#include "language/text/marks.h"
 
 #include <fmt/format.h>
 

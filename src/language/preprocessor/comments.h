@@ -1,7 +1,7 @@
 // First step of preprocessing: joins lines ended by a backslash and removes comments.
 #pragma once
 
-#include "language/source.h"
+#include "language/text/source.h"
 
 namespace espalier::language {
 

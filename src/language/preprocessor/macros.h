@@ -3,7 +3,7 @@
 
 #include "espalier/base/stop.h"
 
-#include "language/source.h"
+#include "language/text/source.h"
 
 #include <optional>
 #include <string>

@@ -3,7 +3,7 @@
 #include "espalier/base/file.h"
 
 #include "language/preprocessor/preprocessor.h"
-#include "language/source.h"
+#include "language/text/source.h"
 
 namespace espalier::language {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "language/preprocessor/macros.h"
 #include "language/preprocessor/setting_comment.h"
-#include "language/source.h"
+#include "language/text/source.h"
 
 #include <filesystem>
 #include <set>

@@ -4,8 +4,8 @@
 
 #include "base/monotone_curve.h"
 #include "base/text.h"
-#include "language/marks.h"
 #include "language/sdl/formula.h"
+#include "language/text/marks.h"
 
 #include <fmt/format.h>
 

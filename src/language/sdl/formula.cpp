@@ -4,7 +4,7 @@
 
 #include "base/characters.h"
 #include "base/text.h"
-#include "language/marks.h"
+#include "language/text/marks.h"
 
 #include <fmt/format.h>
 

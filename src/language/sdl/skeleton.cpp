@@ -1,7 +1,7 @@
 #include "language/sdl/skeleton.h"
 
 #include "base/text.h"
-#include "language/marks.h"
+#include "language/text/marks.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 // L. Szemla, "3D models generator simulating a grow of natural objects for virtual reality", Brno 1999.
 #pragma once
 
-#include "language/source.h"
+#include "language/text/source.h"
 
 #include <array>
 #include <optional>

@@ -1,7 +1,7 @@
 // The words and signs of a skeleton description, each with its place.
 #pragma once
 
-#include "language/source.h"
+#include "language/text/source.h"
 
 #include <string>
 #include <vector>

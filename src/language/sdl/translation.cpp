@@ -1,9 +1,9 @@
 #include "language/sdl/translation.h"
 
 #include "base/text.h"
-#include "language/marks.h"
 #include "language/sdl/fibre_text.h"
 #include "language/sdl/formula.h"
+#include "language/text/marks.h"
 
 #include <fmt/format.h>
 

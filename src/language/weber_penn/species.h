@@ -3,7 +3,7 @@
 
 #include "espalier/base/error.h"
 
-#include "language/source.h"
+#include "language/text/source.h"
 
 #include <map>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "language/weber_penn/translated_species.h"
 
-#include "language/marks.h"
+#include "language/text/marks.h"
 
 namespace espalier::language::weber_penn {
 namespace {

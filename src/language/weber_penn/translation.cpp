@@ -1,6 +1,6 @@
 #include "language/weber_penn/translation.h"
 
-#include "language/marks.h"
+#include "language/text/marks.h"
 #include "language/weber_penn/translated_species.h"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 
 #include "espalier/base/stop.h"
 
-#include "lsystem/contexts/matching.h"
+#include "lsystem/derive/matching.h"
 #include "lsystem/derive/step.h"
 
 #include <vector>

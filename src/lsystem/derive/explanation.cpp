@@ -1,7 +1,7 @@
 #include "lsystem/derive/explanation.h"
 
 #include "lsystem/compile/compiled_model.h"
-#include "lsystem/contexts/matching.h"
+#include "lsystem/derive/matching.h"
 
 #include <algorithm>
 #include <map>

@@ -3,7 +3,7 @@
 
 #include "espalier/lsystem/derivation.h"
 
-#include "lsystem/contexts/match_watch.h"
+#include "lsystem/derive/match_watch.h"
 
 #include <string>
 #include <vector>

@@ -3,7 +3,7 @@
 
 #include "base/parallel.h"
 #include "lsystem/compile/compiled_model.h"
-#include "lsystem/contexts/matching.h"
+#include "lsystem/derive/matching.h"
 #include "lsystem/derive/scratch_lease.h"
 
 #include <atomic>

@@ -5,7 +5,7 @@
 #include "espalier/picture/picture_style.h"
 
 #include "picture/files/off_screen.h"
-#include "picture/light/traced_picture.h"
+#include "picture/files/traced_picture.h"
 #include "picture/stage/stage.h"
 
 #include <vtkImageData.h>

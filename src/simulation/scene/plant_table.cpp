@@ -4,10 +4,10 @@
 #include "espalier/turtle/symbol.h"
 
 #include "simulation/object/side_files.h"
+#include "simulation/scene/insertion.h"
 #include "simulation/scene/keyframes.h"
 #include "simulation/scene/measured_table.h"
 #include "simulation/scene/scene_keyframes.h"
-#include "simulation/world/insertion.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

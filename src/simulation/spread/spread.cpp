@@ -3,9 +3,9 @@
 #include "espalier/base/error.h"
 
 #include "base/bytes.h"
-#include "environment/neighbours/reach.h"
+#include "environment/space/neighbours/reach.h"
+#include "simulation/plant/plant_bytes.h"
 #include "simulation/spread/blocks.h"
-#include "simulation/spread/plant_bytes.h"
 
 #include <fmt/format.h>
 

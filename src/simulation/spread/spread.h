@@ -5,7 +5,7 @@
 #include "espalier/simulation/ranks.h"
 #include "espalier/simulation/scene.h"
 
-#include "simulation/world/growing_plant.h"
+#include "simulation/plant/growing_plant.h"
 
 #include <functional>
 #include <iosfwd>

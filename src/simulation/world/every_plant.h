@@ -5,7 +5,7 @@
 #include "espalier/base/read_log.h"
 
 #include "base/parallel.h"
-#include "simulation/world/growing_plant.h"
+#include "simulation/plant/growing_plant.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>

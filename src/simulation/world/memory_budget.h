@@ -3,8 +3,8 @@
 
 #include "espalier/timeline/recorder.h"
 
-#include "simulation/world/growing_plant.h"
-#include "simulation/world/plant_memory.h"
+#include "simulation/plant/growing_plant.h"
+#include "simulation/plant/plant_memory.h"
 
 #include <atomic>
 #include <cstddef>

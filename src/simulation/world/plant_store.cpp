@@ -1,8 +1,8 @@
 #include "simulation/world/plant_store.h"
 
 #include "base/bytes.h"
-#include "simulation/spread/plant_bytes.h"
-#include "simulation/world/string_checkpoint.h"
+#include "simulation/plant/plant_bytes.h"
+#include "simulation/plant/string_checkpoint.h"
 
 #include <algorithm>
 #include <limits>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/scratch_file.h"
-#include "simulation/world/growing_plant.h"
+#include "simulation/plant/growing_plant.h"
 
 #include <array>
 #include <atomic>

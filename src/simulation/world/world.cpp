@@ -4,8 +4,8 @@
 #include "espalier/base/stop.h"
 
 #include "base/bytes.h"
+#include "simulation/plant/plant_bytes.h"
 #include "simulation/scene/scene_keyframes.h"
-#include "simulation/spread/plant_bytes.h"
 #include "simulation/world/every_plant.h"
 #include "simulation/world/world_state.h"
 

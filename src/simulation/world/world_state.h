@@ -6,8 +6,8 @@
 #include "espalier/simulation/world.h"
 
 #include "base/scratch_file.h"
+#include "simulation/plant/growing_plant.h"
 #include "simulation/spread/spread.h"
-#include "simulation/world/growing_plant.h"
 #include "simulation/world/memory_budget.h"
 #include "simulation/world/plant_store.h"
 

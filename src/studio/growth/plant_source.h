@@ -5,7 +5,7 @@
 #include "espalier/base/read_log.h"
 #include "espalier/studio/studio.h"
 
-#include "environment/sky/scene_sky.h"
+#include "environment/light/sky/scene_sky.h"
 #include "studio/document/document.h"
 #include "studio/packets/limb_axes.h"
 #include "studio/packets/textures.h"

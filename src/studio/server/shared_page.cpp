@@ -3,7 +3,7 @@
 #include "espalier/base/error.h"
 
 #include "base/base64.h"
-#include "environment/sky/scene_sky.h"
+#include "environment/light/sky/scene_sky.h"
 #include "studio/growth/recorded_frame.h"
 #include "studio/server/page_files.h"
 #include "studio/server/shared_organs.h"

@@ -1,7 +1,7 @@
 // What pages are told of the sun and the sky of a step.
 #pragma once
 
-#include "environment/sky/scene_sky.h"
+#include "environment/light/sky/scene_sky.h"
 #include "studio/session/message.h"
 
 #include <array>

@@ -2,7 +2,7 @@
 // towards a direction or along a field of the model's own.
 #include "espalier/turtle/symbol.h"
 
-#include "language/vector_field.h"
+#include "language/parser/vector_field.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
 // The leaf against published figures, against a slow reference of its own, and against its own equations.
-#include "environment/leaf/gas_exchange.h"
+#include "environment/leaf/gas/gas_exchange.h"
 
 #include "catch.h"
-#include "environment/leaf/reference_evaporation.h"
+#include "environment/leaf/gas/reference_evaporation.h"
 
 #include <cmath>
 #include <numbers>

@@ -4,9 +4,9 @@
 #include "espalier/language/reader.h"
 
 #include "catch.h"
-#include "language/marks.h"
 #include "language/sdl/skeleton.h"
 #include "language/sdl/translation.h"
+#include "language/text/marks.h"
 
 #include <algorithm>
 #include <cstdlib>

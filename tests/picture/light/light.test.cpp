@@ -1,9 +1,9 @@
 // Pictures by light paths against what light does in simple scenes.
 #include "catch.h"
+#include "picture/files/traced_picture.h"
 #include "picture/light/colour_space.h"
 #include "picture/light/path_tracer.h"
 #include "picture/light/tone.h"
-#include "picture/light/traced_picture.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>

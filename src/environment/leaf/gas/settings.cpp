@@ -1,0 +1,104 @@
+#include "environment/leaf/gas/settings.h"
+
+#include "espalier/base/math.h"
+
+#include <limits>
+
+namespace espalier::environment::leaf {
+
+LeafKind read_leaf_kind(const Settings& settings) {
+    LeafKind leaf;
+    Photosynthesis& rates = leaf.photosynthesis;
+    if (settings.choice_or("pathway", "c3", {"c3", "c4"}) == "c4") {
+        rates = Photosynthesis::of_c4();
+        rates.carboxylation_pep.at_25 = settings.number_or("vp", rates.carboxylation_pep.at_25, Range::positive());
+        leaf.stomata.slope = 1.6;
+    }
+    rates.carboxylation.at_25 = settings.number_or("v", rates.carboxylation.at_25, Range::positive());
+    rates.electron_transport.at_25 = settings.number_or("jmax", rates.electron_transport.at_25, Range::positive());
+    rates.respiration.at_25 = settings.number_or("rd", rates.respiration.at_25, Range::not_negative());
+    if (settings.has("tpu")) rates.phosphate_use = settings.number("tpu", Range::positive());
+    Stomata& stomata = leaf.stomata;
+    const std::string form = settings.choice_or("stomata", "medlyn", {"medlyn", "leuning", "ball-berry"});
+    if (form == "leuning") stomata.form = Stomata::Form::leuning;
+    if (form == "ball-berry") stomata.form = Stomata::Form::ball_berry;
+    if (form != "medlyn") stomata.slope = 9;
+    stomata.least = settings.number_or("g0", 0.005, Range::between(0, 5));
+    stomata.slope = settings.number_or("g1", stomata.slope, Range::between(0, 100));
+    stomata.deficit_0 = settings.number_or("d0", stomata.deficit_0, Range::positive());
+    stomata.sensitivity = settings.number_or("sf", 0, Range::between(0, 50));
+    stomata.reference = settings.number_or("psi_f", stomata.reference, Range::between(-20, 0));
+    leaf.width = settings.number_or("width", leaf.width, Range::between(1e-4, 10));
+    return leaf;
+}
+
+SceneAir SceneAir::read(const Settings& settings) {
+    SceneAir air;
+    air.temperature = settings.number_or("temperature", air.temperature, Range::between(-40, 60));
+    air.humidity = settings.number_or("humidity", air.humidity, Range::not_negative());
+    if (air.humidity > 1) {
+        throw UserError(settings.place("humidity"), "'humidity' is a share from 0 to 1: write 0.6 for 60 %");
+    }
+    air.wind = settings.number_or("wind", air.wind, Range::between(0.01, 100));
+    air.carbon_dioxide = settings.number_or("co2", air.carbon_dioxide, Range::positive());
+    if (air.carbon_dioxide < 50 || air.carbon_dioxide > 10000) {
+        throw UserError(settings.place("co2"),
+                        "'co2' is in umol per mol of air, 50 to 10000: 40 Pa at sea level are 400");
+    }
+    if (settings.has("pressure") && settings.has("height")) {
+        throw UserError(settings.place("height"), "give either 'height' above the sea or 'pressure'");
+    }
+    air.pressure = settings.has("height") ? pressure_at_height(settings.number("height", Range::between(-500, 9000)))
+                                          : settings.number_or("pressure", sea_level, Range::between(20, 120));
+    air.cloud = settings.number_or("cloud", 0, Range::between(0, 1));
+    if (settings.has("thermal")) air.thermal = settings.number("thermal", Range::between(0, 5000));
+    return air;
+}
+
+Air SceneAir::air() const {
+    return {temperature, humidity * saturation_pressure(temperature), wind, carbon_dioxide, pressure};
+}
+
+double SceneAir::thermal_radiation() const {
+    if (thermal) return *thermal;
+    const double hectopascal = 10 * humidity * saturation_pressure(temperature);
+    const double clear = 1.24 * math::pow(hectopascal / (temperature + kelvin), 1.0 / 7);
+    const double sky = (1 - 0.84 * cloud) * clear + 0.84 * cloud;
+    return (sky + 1) * black_body(temperature);
+}
+
+const std::string& leaf_help() {
+    static const std::string text =
+        R"(pathway        "c3", or "c4"; C3 by Farquhar, von Caemmerer & Berry (1980) with the constants of Bernacchi et al. (2001), C4 by
+               von Caemmerer (2000)
+v              78.5 (c4: 60) umol m-2 s-1; carboxylation by Rubisco at 25 degrees, per area of one side as all rates
+vp             120 umol m-2 s-1; of c4: carboxylation by PEP carboxylase
+jmax           150 (c4: 400) umol m-2 s-1; electron transport at 25 degrees
+rd             2.12 (c4: 0.6) umol m-2 s-1; respiration at 25 degrees
+tpu            none, umol m-2 s-1; use of triose phosphates
+stomata        "medlyn", "leuning", "ball-berry"; what they answer to: Medlyn et al. (2011), Leuning (1995), Ball et al. (1987)
+g0             0.005 mol m-2 s-1; least conductance to water vapour
+g1             4 kPa^0.5 (c4: 1.6), or 9 of the other forms; slope
+d0             1.5 kPa; of Leuning's form
+sf             0 MPa-1; how steeply stomata close with the water potential (Tuzet et al. 2003); 0: not at all
+psi_f          -2 MPa; where they have closed half-way
+width          0.05 m; of a leaf along the wind
+)";
+    return text;
+}
+
+const std::string& air_help() {
+    static const std::string text =
+        R"(temperature    25 degrees Celsius; of the air
+humidity       0.6; relative humidity, 0 to 1
+wind           1 m/s, at the leaves
+co2            400 umol/mol; carbon dioxide in the air
+pressure       101.325 kPa; or height (m above the sea), which gives it
+cloud          0; share of the sky, 0 to 1, for its thermal radiation
+thermal        that of the sky (Brutsaert 1975) and of a ground as warm as the air, W m-2; radiation that meets both sides
+               of a leaf together
+)";
+    return text;
+}
+
+}  // namespace espalier::environment::leaf

@@ -1,0 +1,37 @@
+// Leaves and air as scenes describe them.
+#pragma once
+
+#include "espalier/base/settings.h"
+
+#include "environment/leaf/gas/gas_exchange.h"
+
+#include <optional>
+#include <string>
+
+namespace espalier::environment::leaf {
+
+/// Reads `pathway`, `v`, `jmax`, `rd`, `tpu`, `stomata`, `g0`, `g1`, `d0`, `sf`, `psi_f`, `width`.
+LeafKind read_leaf_kind(const Settings& settings);
+
+/// The air of a step, the same for all leaves.
+struct SceneAir {
+    double temperature = 25;        ///< degrees Celsius
+    double humidity = 0.6;          ///< 0 to 1
+    double wind = 1;                ///< m s-1
+    double carbon_dioxide = 400;    ///< umol mol-1
+    double pressure = sea_level;    ///< kPa
+    double cloud = 0;               ///< share of the sky, 0 to 1
+    std::optional<double> thermal;  ///< radiation that meets both sides of a leaf, W m-2; none: of sky and ground
+
+    static SceneAir read(const Settings& settings);
+    Air air() const;
+    /// Without a number of the scene: of the sky (Brutsaert 1975; clouds as Monteith & Unsworth 1990, eq. 4.23), and of
+    /// a ground as warm as the air.
+    double thermal_radiation() const;
+};
+
+/// What users read of both.
+const std::string& leaf_help();
+const std::string& air_help();
+
+}  // namespace espalier::environment::leaf

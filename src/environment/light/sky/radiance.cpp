@@ -1,0 +1,119 @@
+#include "environment/light/sky/radiance.h"
+
+#include "espalier/base/math.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace espalier::environment {
+namespace {
+
+using std::numbers::pi;
+
+/// ISO 15469:2004, table 1: a, b of the gradation and c, d, e of the indicatrix.
+constexpr std::array<std::array<double, 5>, 15> cie_skies{{{4.0, -0.70, 0, -1.0, 0},
+                                                           {4.0, -0.70, 2, -1.5, 0.15},
+                                                           {1.1, -0.80, 0, -1.0, 0},
+                                                           {1.1, -0.80, 2, -1.5, 0.15},
+                                                           {0.0, -1.00, 0, -1.0, 0},
+                                                           {0.0, -1.00, 2, -1.5, 0.15},
+                                                           {0.0, -1.00, 5, -2.5, 0.30},
+                                                           {0.0, -1.00, 10, -3.0, 0.45},
+                                                           {-1.0, -0.55, 2, -1.5, 0.15},
+                                                           {-1.0, -0.55, 5, -2.5, 0.30},
+                                                           {-1.0, -0.55, 10, -3.0, 0.45},
+                                                           {-1.0, -0.32, 10, -3.0, 0.45},
+                                                           {-1.0, -0.32, 16, -3.0, 0.30},
+                                                           {-1.0, -0.15, 16, -3.0, 0.30},
+                                                           {-1.0, -0.15, 24, -2.8, 0.15}}};
+
+/// Legendre's polynomial of that degree and its derivative.
+std::pair<double, double> legendre(std::int64_t degree, double x) {
+    double before = 1, value = x;
+    for (std::int64_t k = 2; k <= degree; ++k) {
+        const double next =
+            (static_cast<double>(2 * k - 1) * x * value - static_cast<double>(k - 1) * before) / static_cast<double>(k);
+        before = value;
+        value = next;
+    }
+    return {value, static_cast<double>(degree) * (x * value - before) / (x * x - 1)};
+}
+
+}  // namespace
+
+// By Newton's method.
+std::vector<GaussPoint> gauss_points(std::int64_t count) {
+    std::vector<GaussPoint> points;
+    for (std::int64_t i = 0; i < count; ++i) {
+        double x = math::cos(pi * (static_cast<double>(i) + 0.75) / (static_cast<double>(count) + 0.5));
+        for (int turn = 0; turn < 20; ++turn) {
+            const auto [value, slope] = legendre(count, x);
+            x -= value / slope;
+        }
+        const double slope = legendre(count, x).second;
+        points.push_back({(1 + x) / 2, 1 / ((1 - x * x) * slope * slope)});
+    }
+    return points;
+}
+
+SkyRadiance SkyRadiance::uniform() {
+    return {};
+}
+
+SkyRadiance SkyRadiance::overcast() {
+    SkyRadiance sky;
+    sky.kind_ = Kind::overcast;
+    return sky;
+}
+
+SkyRadiance SkyRadiance::cie(int type, const glm::dvec3& sun) {
+    const auto& [a, b, c, d, e] = cie_skies.at(static_cast<std::size_t>(type - 1));
+    SkyRadiance sky;
+    sky.kind_ = Kind::cie;
+    sky.gradation_ = {a, b};
+    sky.indicatrix_ = {c, d, e};
+    sky.sun_ = sun;
+    return sky;
+}
+
+double SkyRadiance::operator()(const glm::dvec3& towards) const {
+    if (kind_ == Kind::uniform) return 1;
+    if (kind_ == Kind::overcast) return 1 + 2 * towards.y;
+    const double from_sun = math::acos(std::clamp(glm::dot(towards, sun_), -1.0, 1.0));
+    const double cosine = math::cos(from_sun);
+    const auto& [c, d, e] = indicatrix_;
+    const double scattered = 1 + c * (math::exp(d * from_sun) - math::exp(d * pi / 2)) + e * cosine * cosine;
+    return scattered * (1 + gradation_.a * math::exp(gradation_.b / std::max(towards.y, 1e-9)));
+}
+
+std::vector<SkyPart> sky_parts(std::int64_t rings, std::int64_t around) {
+    std::vector<SkyPart> parts;
+    const std::vector<GaussPoint> points = gauss_points(rings);
+    const double step = 2 * pi / static_cast<double>(around);
+    for (std::size_t ring = 0; ring < points.size(); ++ring) {
+        const double y = points[ring].at, across = std::sqrt(1 - y * y);
+        const double turned = ring % 2 == 0 ? 0.25 : 0.75;  // neighbouring rings do not stand above each other
+        for (std::int64_t i = 0; i < around; ++i) {
+            const auto [sine, cosine] = math::sine_and_cosine(step * (static_cast<double>(i) + turned));
+            parts.push_back({{across * cosine, y, across * sine}, step * points[ring].weight});
+        }
+    }
+    return parts;
+}
+
+std::vector<double> shares_on_ground(const SkyRadiance& radiance, const std::vector<SkyPart>& parts) {
+    std::vector<double> shares;
+    double sum = 0;
+    for (const SkyPart& part : parts) {
+        shares.push_back(radiance(part.towards) * part.towards.y * part.solid_angle);
+        sum += shares.back();
+    }
+    for (double& share : shares) share /= sum;
+    return shares;
+}
+
+}  // namespace espalier::environment

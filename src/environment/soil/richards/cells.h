@@ -1,0 +1,84 @@
+// The soil's voxels as the solver sees them: one brick per quantity, and the flux through every face.
+#pragma once
+
+#include "environment/soil/grid/grid.h"
+#include "environment/soil/hydraulics/steady_flux.h"
+#include "environment/soil/richards/parameters.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace espalier::environment {
+
+/// Fluxes of one axis. At a cell: through its face towards +x, +y or +z, in that direction, cm/d; and how it changes
+/// with the heads of the cell itself and of the one beyond, 1/d. Where water cannot pass, all are 0.
+struct FaceFluxes {
+    WaterBrick flux, by_own, by_next;
+    void resize(std::size_t cells);
+};
+
+/// Where the neighbours of a row are; a row beyond a closed side is the row itself, to which no face is open.
+struct NeighbourRows {
+    std::size_t own, below, above, back, front;  ///< first cells
+    bool has_above, has_front;
+};
+
+/// The layout of a soil: grid, free voxels, kinds, how sides are joined.
+class SoilLayout {
+public:
+    SoilLayout(const WaterGrid& grid, const SoilParameters& parameters, const std::vector<std::uint8_t>& free_voxels,
+               const Fields& fields);
+
+    const WaterGrid& grid() const { return grid_; }
+    const WaterFaces& faces() const { return faces_; }
+    bool free(std::size_t cell) const { return faces_.free(cell); }
+    const SoilHydraulics& kind(std::size_t cell) const { return kinds_[kind_of_[cell]]; }
+    std::uint8_t kind_number(std::size_t cell) const { return kind_of_[cell]; }
+    OutsideSoil outside() const { return parameters_.outside; }
+    bool joined_x() const { return joined_x_; }
+    bool joined_z() const { return joined_z_; }
+    NeighbourRows neighbours(std::size_t row) const;
+    double edge() const { return edge_; }                    ///< of a voxel, cm
+    double volume() const { return edge_ * edge_ * edge_; }  ///< of a voxel, cm3
+    /// How the soil begins at a point.
+    const SoilBeginning& beginning(const glm::dvec3& point) const;
+
+    /// Copies the ends of a row into the spare cells beyond, if the sides are joined.
+    void wrap(double* row) const;
+
+    /// Calls work(row) for every row, in parallel where that pays.
+    template <class Work>
+    void for_rows(Work work) const;
+
+private:
+    void place_kinds(const Fields& fields);
+
+    WaterGrid grid_;
+    const SoilParameters& parameters_;
+    std::vector<SoilHydraulics> kinds_;
+    WaterFaces faces_;
+    std::vector<std::uint8_t> kind_of_;
+    double edge_;
+    bool joined_x_, joined_z_;
+};
+
+}  // namespace espalier::environment
+
+#include "base/parallel.h"
+
+namespace espalier::environment {
+
+template <class Work>
+void SoilLayout::for_rows(Work work) const {
+    const std::size_t grain = std::max<std::size_t>(1, 4096 / grid_.stride());
+    if (grid_.rows() <= grain) {
+        for (std::size_t row = 0; row < grid_.rows(); ++row) work(row);
+        return;
+    }
+    for_in_parallel(tbb::blocked_range<std::size_t>(0, grid_.rows(), grain), [&](const auto& range) {
+        for (std::size_t row = range.begin(); row != range.end(); ++row) work(row);
+    });
+}
+
+}  // namespace espalier::environment

@@ -1,0 +1,27 @@
+#include "environment/soil/richards/movement.h"
+
+#include "environment/soil/linear/stock.h"
+
+namespace espalier::environment {
+
+void SoilMovement::resize(const WaterGrid& grid, bool has_side_heads) {
+    if (has_side_heads) sides.assign(grid.cells(), 0.0);
+    for (WaterBrick& axis : flux) axis.assign(grid.cells(), 0.0);
+    uptake.assign(grid.cells(), 0.0);
+    const std::size_t columns = std::size_t(grid.size().x) * grid.size().z;
+    for (std::vector<double>* side : {&floor, &surface}) side->assign(columns, 0.0);
+}
+
+void SoilMovement::save(std::ostream& out) const {
+    for (const WaterBrick& axis : flux) write_doubles(out, {axis.data(), axis.size()});
+    for (const WaterBrick* brick : {&uptake, &sides}) write_doubles(out, {brick->data(), brick->size()});
+    for (const std::vector<double>* side : {&floor, &surface}) write_doubles(out, *side);
+}
+
+void SoilMovement::restore(std::istream& in) {
+    for (WaterBrick& axis : flux) read_doubles(in, {axis.data(), axis.size()});
+    for (WaterBrick* brick : {&uptake, &sides}) read_doubles(in, {brick->data(), brick->size()});
+    for (std::vector<double>* side : {&floor, &surface}) read_doubles(in, *side);
+}
+
+}  // namespace espalier::environment

@@ -1,0 +1,48 @@
+// What takes water out of a soil while it flows, as roots do.
+#pragma once
+
+#include "espalier/environment/environment_process.h"
+
+#include "environment/soil/richards/movement.h"
+
+#include <span>
+
+namespace espalier::environment {
+
+class SoilSink {
+public:
+    virtual ~SoilSink() = default;
+
+    /// How long a substep that begins at `day` may be.
+    virtual double longest_substep(double day) const = 0;
+    /// Whether what it would take has jumped since it was asked before, so that rates of the past tell nothing.
+    virtual bool has_jumped(double day) = 0;
+    /// A step begins: the plants are as they are in `world`.
+    virtual void begin(const WorldView& world, const SoilLayout& layout) = 0;
+    /// Adds what is taken from each cell, content per day, and how that changes with the cell's head, in a substep of
+    /// `days` from `day` on. `points` are a Newton step's guess of the soil at its end. Of the rate over that time,
+    /// what is added is the part `weight`; the rest is the rate over the substep before. `days` = 0: at that moment.
+    virtual void draw(std::span<const SoilPoint> points, double day, double days, double weight, WaterBrick& uptake,
+                      WaterBrick& by_head) = 0;
+    /// The last draw holds: the soil has come on by `days`. Of the rate over that time it is the part `weight`; the
+    /// rest is the rate over the time before.
+    virtual void accept(double days, double weight) = 0;
+};
+
+/// A soil as other processes find it: the source of its fields.
+class SharedSoil : public FieldSource {
+public:
+    /// From now on `sink` takes water in every step; it lives as long as the soil.
+    virtual void attach(SoilSink& sink) = 0;
+    /// From now on `follower` is told of every substep.
+    virtual void attach(SoilFollower& follower) = 0;
+    virtual const SoilLayout& layout() const = 0;
+    virtual const WaterBrick& contents() const = 0;
+    virtual double days_per_unit() const = 0;
+    /// To the nearest stone, side or floor, m; see WaterSolids.
+    virtual double distance_to_wall(const glm::dvec3& point) const = 0;
+    /// Tells the user, once.
+    virtual void warn_of_root_outside(std::uint32_t plant, const glm::dvec3& point) = 0;
+};
+
+}  // namespace espalier::environment

@@ -1,0 +1,174 @@
+#include "environment/soil/roots/uptake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+namespace espalier::environment {
+
+double FeddesHeads::factor(double head) const {
+    if (head >= anaerobic || head <= wilting) return 0;
+    if (head > wet) return (anaerobic - head) / (anaerobic - wet);
+    return head >= dry ? 1 : (head - wilting) / (dry - wilting);
+}
+
+double FeddesHeads::slope(double head) const {
+    if (head >= anaerobic || head <= wilting || (head <= wet && head >= dry)) return 0;
+    return head > wet ? -1 / (anaerobic - wet) : 1 / (dry - wilting);
+}
+
+double PlantWater::transpiration() const {
+    return std::accumulate(uptake.begin(), uptake.end(), 0.0);
+}
+
+PlantUptake::PlantUptake(PlantRoots roots, const SoilLayout& soil) : roots_(std::move(roots)), soil_(soil) {
+    const std::size_t count = roots_.pieces.size();
+    resistance_.assign(count, 0);
+    for (std::size_t i = 0; i < count; ++i) {
+        radial_.push_back(roots_.pieces[i].radial);
+        const std::size_t cell = roots_.cells[i];
+        heights_.push_back(cell == PlantRoots::no_cell ? 0 : 100 * soil.grid().centre(soil.grid().voxel_of(cell)).y);
+    }
+    water_.uptake.assign(count, 0);
+    water_.by_head.assign(count, 0);
+    water_.surface.assign(count, 0);
+    water_.xylem.assign(count, 0);
+    measure_conductance();
+}
+
+/// In soil of one total head, 1 cm above that of the collar.
+void PlantUptake::measure_conductance() {
+    for (RootPiece& piece : roots_.pieces) piece.outside = 1;
+    water_.conductance = tree_.look(roots_.pieces).conductance;
+    tree_.flow(roots_.pieces, 0, flow_);
+    water_.fractions = flow_.uptake;
+    for (double& fraction : water_.fractions) fraction = water_.conductance > 0 ? fraction / water_.conductance : 0;
+}
+
+void PlantUptake::add_lengths(WaterBrick& lengths) const {
+    for (std::size_t i = 0; i < roots_.pieces.size(); ++i) {
+        if (roots_.cells[i] != PlantRoots::no_cell) lengths[roots_.cells[i]] += roots_.pieces[i].length;
+    }
+}
+
+void PlantUptake::surround(const WaterBrick& lengths, bool zone) {
+    const double volume = soil_.volume();
+    for (std::size_t i = 0; i < resistance_.size() && zone; ++i) {
+        if (roots_.cells[i] == PlantRoots::no_cell) continue;
+        const double outer = std::sqrt(volume / (std::numbers::pi * lengths[roots_.cells[i]]));
+        resistance_[i] = roots_.radii[i] * zone_factor(roots_.radii[i], outer);
+    }
+}
+
+void PlantUptake::solve(std::span<const SoilPoint> points, UptakeModel model, const RootCollar& collar,
+                        const FeddesHeads& feddes, double demand, double held_head) {
+    if (roots_.pieces.empty()) return;
+    if (!begun_) {
+        for (std::size_t i = 0; i < radial_.size(); ++i) {
+            if (roots_.cells[i] != PlantRoots::no_cell) water_.xylem[i] = points[roots_.cells[i]].head;
+        }
+        begun_ = true;
+    }
+    water_.demand = collar.held ? std::nan("") : demand;
+    if (model == UptakeModel::network) return solve_network(points, collar, demand, held_head);
+    solve_macroscopic(points, model, collar, feddes, demand, held_head);
+}
+
+/// Newton's method: around each piece the flow through soil and root wall is replaced by its tangent, and the tree of
+/// these is solved exactly.
+void PlantUptake::pass(double days, double weight, double before) {
+    const std::vector<double>& now = water_.uptake;
+    if (rates_.size() != now.size()) {
+        // The step begins with other pieces than the last one had: they share what the plant took up.
+        const double sum = water_.transpiration();
+        rates_ = now;
+        if (sum > 0) {
+            for (double& rate : rates_) rate *= before / sum;
+        }
+    }
+    days_ += days;
+    taken_.resize(now.size(), 0);
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        rates_[i] = weight * now[i] + (1 - weight) * rates_[i];
+        taken_[i] += rates_[i] * days;
+    }
+}
+
+double PlantUptake::mean_uptake(std::size_t piece) const {
+    return days_ > 0 ? taken_[piece] / days_ : water_.uptake[piece];
+}
+
+void PlantUptake::solve_network(std::span<const SoilPoint> points, const RootCollar& collar, double demand,
+                                double held_head) {
+    const std::size_t count = radial_.size();
+    for (int step = 0; step < 60; ++step) {
+        for (std::size_t i = 0; i < count; ++i) {
+            if (roots_.cells[i] == PlantRoots::no_cell) continue;
+            const std::size_t cell = roots_.cells[i];
+            const RadialFlow flow =
+                radial_flow(soil_.kind(cell), points[cell], water_.xylem[i], radial_[i], resistance_[i]);
+            RootPiece& piece = roots_.pieces[i];
+            piece.radial = std::max(-flow.by_xylem, 1e-13 * radial_[i]);
+            piece.outside = heights_[i] + water_.xylem[i] + (piece.radial > 0 ? flow.flux / piece.radial : 0);
+            water_.surface[i] = flow.surface_head;
+            water_.by_head[i] = flow.by_soil * piece.surface_per_length * piece.length;
+        }
+        const CollarView view = tree_.look(roots_.pieces);
+        double head = held_head + roots_.collar_height;
+        if (!collar.held) {
+            const double limit = collar.limit + roots_.collar_height;
+            head = view.conductance > 0 ? std::max(view.head - demand / view.conductance, limit) : limit;
+        }
+        tree_.flow(roots_.pieces, head, flow_);
+        double moved = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const RootPiece& piece = roots_.pieces[i];
+            const double wall = piece.radial * piece.surface_per_length * piece.length;
+            water_.uptake[i] = flow_.uptake[i];
+            if (!(wall > 0)) continue;
+            const double xylem = piece.outside - flow_.uptake[i] / wall - heights_[i];
+            moved = std::max(moved, std::abs(xylem - water_.xylem[i]) / (1 + std::abs(xylem)));
+            water_.xylem[i] = xylem;
+        }
+        water_.collar = head - roots_.collar_height;
+        if (moved < 1e-9) break;
+    }
+}
+
+/// Feddes: each root takes its share of the demand, by its length, as far as the soil gives it. Couvreur: the shares of
+/// uniform soil, and what wet places send to dry ones.
+void PlantUptake::solve_macroscopic(std::span<const SoilPoint> points, UptakeModel model, const RootCollar& collar,
+                                    const FeddesHeads& feddes, double demand, double held_head) {
+    const std::size_t count = radial_.size();
+    double length = 0, mean = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (roots_.cells[i] == PlantRoots::no_cell) continue;
+        length += roots_.pieces[i].length;
+        mean += water_.fractions[i] * (points[roots_.cells[i]].head + heights_[i]);
+    }
+    double taken = demand;
+    if (model == UptakeModel::couvreur) {
+        const double limit = (collar.held ? held_head : collar.limit) + roots_.collar_height;
+        const double most = water_.conductance * (mean - limit);
+        taken = collar.held ? most : std::min(demand, std::max(most, 0.0));
+        water_.collar = mean - taken / std::max(water_.conductance, 1e-300) - roots_.collar_height;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        if (roots_.cells[i] == PlantRoots::no_cell) continue;
+        const SoilPoint& point = points[roots_.cells[i]];
+        if (model == UptakeModel::feddes) {
+            const double share = demand * roots_.pieces[i].length / length;
+            water_.uptake[i] = share * feddes.factor(point.head);
+            water_.by_head[i] = share * feddes.slope(point.head);
+        } else {
+            const double sends = water_.conductance * water_.fractions[i];
+            water_.uptake[i] = water_.fractions[i] * taken + sends * (point.head + heights_[i] - mean);
+            water_.by_head[i] = sends;
+        }
+        water_.surface[i] = point.head;
+    }
+}
+
+}  // namespace espalier::environment

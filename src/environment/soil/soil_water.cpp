@@ -1,0 +1,200 @@
+// Soil water: a content that diffuses between obstacles, layers and sides, and that roots drink.
+// Its parameters and queries are described in water/parameters.cpp, the numbers behind it in docs/water.md. With
+// model = "richards" it is another process: soil/richards_process.h.
+#include "espalier/environment/environment_process.h"
+
+#include "base/text.h"
+#include "environment/exchange/changing_settings.h"
+#include "environment/soil/grid/field.h"
+#include "environment/soil/grid/parameters.h"
+#include "environment/soil/grid/senses.h"
+#include "environment/soil/grid/solids.h"
+#include "environment/soil/linear/diffusion.h"
+#include "environment/soil/linear/steady.h"
+#include "environment/soil/linear/stock.h"
+#include "environment/soil/richards/parameters.h"
+#include "environment/soil/richards/richards_process.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <istream>
+#include <ostream>
+
+namespace espalier::environment {
+namespace {
+
+// Two bricks of doubles, two grids of floats, flags.
+constexpr double bytes_per_voxel = 2 * 8 + 2 * 5 + 3;
+
+WaterGrid affordable_grid(const WaterParameters& parameters, const EnvironmentContext& context) {
+    const double voxels = WaterGrid::voxels_needed(parameters.domain, parameters.voxel, parameters.flat);
+    const double bytes = voxels * (bytes_per_voxel + (parameters.steady ? steady_bytes_per_voxel : 0));
+    if (!(voxels <= 2e9) || bytes > static_cast<double>(context.memory)) {
+        throw UserError(parameters.voxel_place,
+                        fmt::format("'{}' would have {} voxels and take {} GB: use larger voxels, a smaller domain or "
+                                    "more memory",
+                                    context.name, format_general(voxels), format_general(bytes / 1e9)));
+    }
+    return WaterGrid(parameters.domain, parameters.voxel, parameters.flat);
+}
+
+class SoilWater final : public EnvironmentProcess {
+public:
+    SoilWater(Settings& settings, const EnvironmentContext& context, Fields& fields)
+        : parameters_(read_water_parameters(settings, context)),
+          grid_(affordable_grid(parameters_, context)),
+          solids_(parameters_),
+          diffusion_(grid_, parameters_),
+          field_(context.name, parameters_.unit, grid_),
+          name_(context.name),
+          warnings_(context.warnings),
+          uptake_(context.plants, 0),
+          wish_(context.plants, 0) {
+        solids_.look(fields);
+        stock_.emplace(grid_, parameters_, solids_.free_voxels(grid_));
+        if (parameters_.steady) stock_->settle(diffusion_);
+        field_.set_faces(stock_->faces());
+        field_.provide([this]() -> const WaterBrick& { return stock_->contents(); }, fields);
+    }
+
+    void advance(const WorldView& world, std::span<const Query>, Fields& fields) override {
+        const bool moved = solids_.look(fields);
+        if (moved || restored_) {
+            restored_ = false;
+            stock_->set_free(solids_.free_voxels(grid_));
+            field_.set_faces(stock_->faces());
+        }
+        if (world.step == 0) {
+            stock_->hold();  // no time has passed
+        } else if (parameters_.mode == WaterMode::relaxation) {
+            stock_->relax(world.dt);
+        } else {
+            stock_->diffuse(diffusion_, world.dt);
+        }
+    }
+
+    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+        const WaterSenses senses{grid_, stock_->faces(), solids_, parameters_, stock_->contents()};
+        const std::vector<WaterWish> wishes = sense_water(senses, queries, answers);
+        warn_of_wishes_beyond_voxels(queries);
+        const std::vector<double> obtained = parameters_.depletion ? stock_->share(wishes) : stock_->lend(wishes);
+        std::fill(uptake_.begin(), uptake_.end(), 0);
+        std::fill(wish_.begin(), wish_.end(), 0);
+        for (std::size_t q = 0; q < queries.size(); ++q) {
+            if (answers[q].empty()) continue;
+            answers[q][0] = obtained[q] * parameters_.amount;
+            if (queries[q].plant >= uptake_.size()) continue;
+            uptake_[queries[q].plant] += answers[q][0];
+            wish_[queries[q].plant] += wishes[q].amount * parameters_.amount;
+        }
+        stock_->measure();
+        warn_of_water_without_room();
+        field_.change();
+    }
+
+    std::vector<ChangingSetting> changing_settings() override {
+        std::vector<ChangingSetting> settings{
+            changing("range", Range::positive(), parameters_.range),
+            changing("gradient_length", Range::positive(), parameters_.gradient_length)};
+        for (std::size_t k = 0; k < parameters_.sources.size(); ++k) {
+            const bool holds = parameters_.sources[k].hold.has_value();
+            const Range range = holds ? Range::between(0, std::min(parameters_.porosity, 1e30)) : content_range;
+            settings.push_back({fmt::format("sources.{}.{}", k, holds ? "hold" : "rate"), range,
+                                [this, k](double value) { stock_->set_source(k, value); }});
+        }
+        return settings;
+    }
+
+    std::vector<Quantity> statistics(std::uint32_t plant) const override {
+        const WaterBalance& balance = stock_->balance();
+        const double amount = parameters_.amount;
+        const std::string unit = parameters_.amount == 1 ? "voxels" : "m3";
+        return {{"uptake", plant < uptake_.size() ? uptake_[plant] : 0, unit},
+                {"wish", plant < wish_.size() ? wish_[plant] : 0, unit},
+                {"total", balance.total * amount, unit},
+                {"added", balance.added * amount, unit},
+                {"boundary", balance.boundary * amount, unit},
+                {"drunk", balance.drunk * amount, unit},
+                {"displaced", balance.displaced * amount, unit},
+                {"runoff", balance.runoff * amount, unit},
+                {"balance", balance.relative_error()},
+                {"minimum", balance.minimum, "m3/m3"},
+                {"maximum", balance.maximum, "m3/m3"}};
+    }
+
+    std::pair<int, int> query_arity() const override { return {1, 100}; }
+    Spreading spreading() const override { return Spreading::queries; }
+
+    ProcessMemory memory() const override {
+        return {static_cast<std::size_t>(bytes_per_voxel * static_cast<double>(grid_.voxels()))};
+    }
+
+    void save(std::ostream& out) const override {
+        stock_->save(out);
+        write_doubles(out, uptake_);
+        write_doubles(out, wish_);
+    }
+
+    void restore(std::istream& in) override {
+        stock_->restore(in);
+        read_doubles(in, uptake_);
+        read_doubles(in, wish_);
+        field_.set_faces(stock_->faces());
+        restored_ = true;
+    }
+
+private:
+    // Once. Wishes in content times voxels are a million times too large where voxels of a centimetre count as volumes.
+    void warn_of_wishes_beyond_voxels(std::span<const Query> queries) {
+        const double most = 8 * parameters_.amount;  // eight voxels of nothing but water
+        if (!warnings_ || parameters_.amount == 1) return;
+        for (const Query& query : queries) {
+            if (query.parameters[0] <= most) continue;
+            warnings_->push_back(
+                {Diagnostic::Severity::warning, parameters_.amount_place,
+                 fmt::format("plant {} requests {:g} of '{}', but a voxel holds at most {:.3g}: with "
+                             "amount = \"volume\", requests are content times m3. Request less, or use "
+                             "amount = \"content\"",
+                             query.plant, query.parameters[0], name_, parameters_.amount),
+                 ""});
+            warnings_ = nullptr;
+            return;
+        }
+    }
+
+    // Once. A concentration may be what it likes, but there is no more than a cubic metre of water in one of soil.
+    void warn_of_water_without_room() {
+        if (!warnings_ || parameters_.unit != "m3/m3" || !(stock_->balance().maximum > 1)) return;
+        warnings_->push_back({Diagnostic::Severity::warning, parameters_.settings_place,
+                              fmt::format("'{}' holds {:.3g} m3/m3, more water than there is room: give the soil its "
+                                          "porosity (porosity = 0.45), so that the excess runs off, or another unit",
+                                          name_, stock_->balance().maximum),
+                              ""});
+        warnings_ = nullptr;
+    }
+
+    WaterParameters parameters_;
+    WaterGrid grid_;
+    WaterSolids solids_;
+    WaterDiffusion diffusion_;
+    WaterField field_;
+    std::optional<WaterStock> stock_;
+    bool restored_ = false;  ///< the solids looked at are older than the stock
+    std::string name_;
+    std::vector<Diagnostic>* warnings_;  ///< null as soon as there was one
+    std::vector<double> uptake_, wish_;  ///< per plant, this step
+};
+
+std::unique_ptr<EnvironmentProcess> make_soil(Settings& settings, const EnvironmentContext& context, Fields& fields) {
+    const std::string model = settings.choice_or("model", "linear", {"linear", "richards", "still"});
+    if (model != "linear") return make_richards_soil(settings, context, fields, model == "still");
+    return std::make_unique<SoilWater>(settings, context, fields);
+}
+
+const Registered<ProcessType> entry{
+    {"soil-water", "water or another substance in soil: diffusion or Richards' equation, layers, uptake by roots",
+     std::string(soil_water_help) + "\n" + richards_help, make_soil}};
+
+}  // namespace
+}  // namespace espalier::environment

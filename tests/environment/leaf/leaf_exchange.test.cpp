@@ -1,0 +1,94 @@
+// Leaves in the light that another process measures: they take and give what one leaf alone does, by their areas.
+#include "catch.h"
+#include "environment/leaf/gas/gas_exchange.h"
+#include "environment/light/lit_leaves.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+using namespace espalier;
+using namespace espalier::environment;
+using Catch::Contains;
+
+namespace {
+
+const std::string light = "[light]\nprocess = \"canopy-light\"\nvoxel = 0.5\n" + black +
+                          "sky = { par = 1200, diffuse = 0, sun = [0, 1, 0] }\n";
+const std::string leaves = "[leaves]\nprocess = \"leaf-exchange\"\nlight = \"light\"\n";
+
+Environment scene(const std::string& tables) {
+    EnvironmentContext context;
+    context.domain = Box{{0, 0, 0}, {2, 3, 2}};
+    context.plants = 2;
+    return environment_of(tables, context);
+}
+
+/// One level leaf of 4 cm2, far from others.
+AskingPlants one_leaf() {
+    AskingPlants plants;
+    plants.add({{{0.2, 1, 0.1}, {0, 0, 0}}, {{0, 0, 0}, {0}}});
+    draw_square(plants.interpretation(0).geometry, 1, {0.2, 1, 0.1}, {1, 0, 0}, {0, 0, 1}, 0.02);
+    return plants;
+}
+
+double of_leaf(const Environment& environment, const std::string& quantity) {
+    return environment.organ_values("leaves." + quantity, 0)->at(1);
+}
+
+double of_plant(const Environment& environment, const std::string& quantity) {
+    return environment.statistic("leaves." + quantity, 0);
+}
+
+}  // namespace
+
+TEST_CASE("a leaf in a scene does what one leaf alone does in the same light", "[leaf-exchange]") {
+    Environment environment =
+        scene(light + leaves + "nir = 0.3\nthermal = 790\nwind = 1.5\ng0 = 0\ntemperature = 24\n");
+    AskingPlants plants = one_leaf();
+    plants.exchange(environment, 1);
+    const double photons = environment.organ_values("light.flux", 0)->at(1);
+    leaf::LeafKind kind;
+    const leaf::Air air{24, 0.6 * leaf::saturation_pressure(24), 1.5, 400, leaf::sea_level};
+    const leaf::GasExchange alone = leaf::gas_exchange(kind, {photons, 0.3 * photons / 4.57, 790}, air);
+    CHECK(of_leaf(environment, "assimilation") == Approx(alone.assimilation).epsilon(1e-5));
+    CHECK(of_leaf(environment, "transpiration") == Approx(1000 * alone.transpiration).epsilon(1e-5));
+    CHECK(of_leaf(environment, "temperature") == Approx(alone.temperature).epsilon(1e-6));
+    CHECK(of_plant(environment, "leaf_area") == Approx(4e-4).epsilon(1e-6));
+    CHECK(of_plant(environment, "gain") == Approx(alone.assimilation * 1e-6 * 4e-4 * 86400).epsilon(1e-5));
+    CHECK(of_plant(environment, "residual") < 1e-10);
+}
+
+TEST_CASE("at night leaves lose carbon and keep their water", "[leaf-exchange]") {
+    const std::string night = "[light]\nprocess = \"canopy-light\"\nvoxel = 0.5\nsky = { latitude = 80, day = 355 }\n";
+    Environment environment = scene(night + leaves + "g0 = 0\n");
+    AskingPlants plants = one_leaf();
+    plants.exchange(environment, 1);
+    CHECK(of_plant(environment, "gain") < 0);
+    CHECK(of_plant(environment, "water") == 0);
+}
+
+TEST_CASE("nothing is gained before time has passed", "[leaf-exchange]") {
+    Environment environment = scene(light + leaves);
+    AskingPlants plants = one_leaf();
+    plants.exchange(environment, 0);
+    CHECK(of_plant(environment, "gain") == 0);
+    CHECK(of_leaf(environment, "assimilation") > 5);
+}
+
+TEST_CASE("what leaves say of the scene is one line", "[leaf-exchange]") {
+    const auto mistake = [](const std::string& tables) {
+        try {
+            Environment environment = scene(tables);
+            AskingPlants plants = one_leaf();
+            plants.exchange(environment, 1);
+        } catch (const std::exception& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    CHECK_THAT(mistake(leaves + light), Contains("needs a canopy-light or a ray-light called 'light', before it"));
+    CHECK_THAT(mistake(light + leaves + "humidity = 60\n"), Contains("write 0.6 for 60 %"));
+    CHECK_THAT(mistake(light + leaves + "co2 = 40\n"), Contains("40 Pa at sea level are 400"));
+    CHECK_THAT(mistake(light + leaves + "wind = -1\n"), Contains("wind"));
+}
