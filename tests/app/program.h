@@ -6,6 +6,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
 #include <functional>
 #include <string>
 #include <sys/wait.h>
@@ -39,14 +40,16 @@ public:
         return {code_of(status), text_of(path() / ".out"), text_of(path() / ".err")};
     }
 
-    /// Starts the program, waits until `ready` and calls `act` with its process id; returns how it ended.
+    /// Starts the program, waits until `ready` and until it answers Ctrl-C itself, and calls `act` with its process id;
+    /// returns how it ended.
     enum class Group { of_the_tests, own };
     Outcome run_until(const std::vector<std::string>& arguments, const std::function<bool()>& ready,
                       const std::function<void(pid_t)>& act, Group group = Group::of_the_tests) const {
         const pid_t child = fork();
         if (child == 0 && group == Group::own) setpgid(0, 0);
         if (child == 0) become_program(arguments);
-        for (int i = 0; i < 2000 && !ready(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        const auto is_ready = [&] { return answers_interrupts(child) && ready(); };
+        for (int i = 0; i < 2000 && !is_ready(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
         act(child);
         int status = 0;
         for (int i = 0; i < 2000 && waitpid(child, &status, WNOHANG) == 0; ++i) {
@@ -57,6 +60,20 @@ public:
     }
 
 private:
+    /// True where processes do not say which signals they catch, and of one that has ended.
+    static bool answers_interrupts(pid_t process) {
+        namespace fs = std::filesystem;
+        const fs::path about = fs::path("/proc") / std::to_string(process);
+        std::error_code unreadable;
+        const fs::path program = fs::read_symlink(about / "exe", unreadable);
+        if (!unreadable && program != fs::canonical(ESPALIER_PROGRAM)) return false;  // still that of the tests
+        std::ifstream status(about / "status");
+        for (std::string word; status >> word;) {
+            if (word == "SigCgt:" && status >> word) return (std::stoull(word, nullptr, 16) >> (SIGINT - 1) & 1) != 0;
+            if (word == "(zombie)") return true;
+        }
+        return true;
+    }
     [[noreturn]] void become_program(const std::vector<std::string>& arguments) const {
         if (chdir(path().c_str()) != 0 || !freopen(".out", "w", stdout) || !freopen(".err", "w", stderr)) _exit(127);
         std::vector<char*> argv{const_cast<char*>(ESPALIER_PROGRAM)};
