@@ -38,7 +38,7 @@ std::filesystem::path file_of(const ExportJob& job, std::string stem, const std:
 
 FrameGeometry ExportJob::geometry(const RecordedFrame& frame) const {
     FrameGeometry geometry = run.geometry(frame);
-    if (!bark.empty()) dress_axes(geometry, bark);
+    if (!bark.empty()) apply_bark(geometry, bark);
     return geometry;
 }
 

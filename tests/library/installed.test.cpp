@@ -100,9 +100,13 @@ TEST_CASE("the examples of the manual build against an installed library and pri
     const Installed& installed = Installed::once();
     const TemporaryFolder project;
     const Examples page = examples();
-    REQUIRE(page.printed.size() >= 3);
-    for (const auto& [name, text] : page.files) project.write(name, text);
-    require_done(shell(std::string(ESPALIER_CMAKE) + " -S . -B build -DCMAKE_PREFIX_PATH='" +
+    REQUIRE(page.printed.size() == 5);
+    const fs::path sources = installed.prefix() / "share/espalier/docs/examples/library";
+    for (const auto& [name, text] : page.files) {
+        INFO(name);
+        CHECK((name == "CMakeLists.txt" || text == text_of(sources / name)));
+    }
+    require_done(shell(std::string(ESPALIER_CMAKE) + " -S '" + sources.string() + "' -B build -DCMAKE_PREFIX_PATH='" +
                            installed.prefix().string() + "' && " ESPALIER_CMAKE " --build build --parallel 2",
                        project.path()));
     require_done(shell("'" + installed.program() + "' run models/course/02-branching.l --steps 3 --output run --quiet",

@@ -73,7 +73,7 @@ std::vector<AxisLine> axis_lines(const FrameGeometry& geometry, std::span<const 
     return lines;
 }
 
-void dress_axes(FrameGeometry& geometry, const std::string& texture) {
+void apply_bark(FrameGeometry& geometry, const std::string& texture) {
     if (geometry.texture_files.empty()) geometry.texture_files.emplace_back();
     const auto number = static_cast<std::uint16_t>(geometry.texture_files.size());
     geometry.texture_files.push_back(texture);

@@ -25,6 +25,6 @@ std::vector<AxisLine> axis_lines(const FrameGeometry& geometry, std::span<const 
                                  float thinnest, Forks forks);
 
 /// Puts a texture on all axes that wear none.
-void dress_axes(FrameGeometry& geometry, const std::string& texture);
+void apply_bark(FrameGeometry& geometry, const std::string& texture);
 
 }  // namespace espalier::archive

@@ -329,7 +329,7 @@ periodic      false; true repeats the scene's domain to all sides
 ground        0 m: height of the soil; leaves below it lower it
 solids        [[solids]] tables of shapes, which absorb all light in voxels whose middle they hold
 scattering    { rings = 3, around = 6, residual = 0.01 }: directions of scattered light, in each half of the sphere; the
-              generations end where less than residual of the light is left, which shares the fate of the last one
+              generations end where less than residual of the light is left, which is distributed like the last one
 )") + OrganLight::help() +
         optics_help() +
         R"(sky           the table of the light, below

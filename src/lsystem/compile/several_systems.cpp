@@ -21,7 +21,7 @@ std::string label_of(const CompiledSystem& system) {
 }
 
 /// True if another L-system than `borrower` has a variable or array of its own by this name.
-bool somebody_lends(const CompiledModel& model, const CompiledSystem& borrower, const std::string& name, bool array) {
+bool another_owns(const CompiledModel& model, const CompiledSystem& borrower, const std::string& name, bool array) {
     return std::any_of(model.systems.begin(), model.systems.end(), [&](const auto& system) {
         const auto& indices = array ? system->array_indices : system->global_indices;
         const auto& borrowed = array ? system->external_arrays : system->external_globals;
@@ -47,7 +47,7 @@ Enclosure enclosure_of(const Alphabet& alphabet) {
 void require_lenders(const CompiledModel& model) {
     for (const auto& system : model.systems) {
         const auto require = [&](const External& external, bool array, const Place& place) {
-            if (somebody_lends(model, *system, external.name, array)) return;
+            if (another_owns(model, *system, external.name, array)) return;
             throw UserError(place, fmt::format("'{}' is external in L-system {}, but no other L-system has {} of that "
                                                "name; there are L-systems {}",
                                                external.name, label_of(*system), array ? "an array" : "a variable",

@@ -60,7 +60,7 @@ std::string time_text(const RecordedRun& run, const RecordedFrame& frame) {
 
 std::shared_ptr<const FrameGeometry> dressed(const FrameGeometry& geometry, const std::string& bark) {
     FrameGeometry copy = geometry;
-    dress_axes(copy, bark);
+    apply_bark(copy, bark);
     return std::make_shared<FrameGeometry>(std::move(copy));
 }
 

@@ -173,9 +173,9 @@ Picked Growth::module_info(int step, std::uint32_t module) const {
     return studio::module_info(*scene(), *steps_, step, module);
 }
 
-void Growth::rest(bool rests) {
+void Growth::pause_drawing(bool pauses) {
     const std::lock_guard lock(mutex_);
-    rests_ = rests;
+    rests_ = pauses;
     changed_.notify_all();
 }
 

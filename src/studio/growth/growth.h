@@ -80,7 +80,7 @@ public:
     void stop() override;
     /// False if what grows depends on how far it is to grow: then it must grow anew.
     bool extend(int last_step, std::uint64_t version) override;
-    void rest(bool rests) override;
+    void pause_drawing(bool pauses) override;
 
 private:
     struct Work;

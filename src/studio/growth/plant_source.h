@@ -99,7 +99,7 @@ public:
     /// Goes on to a later step, for a later version of the document that asks for nothing else. False if it cannot.
     virtual bool extend(int /*last_step*/, std::uint64_t /*version*/) { return false; }
     /// Steps that no page looks at are not drawn for the time being: another growth is to begin.
-    virtual void rest(bool /*rests*/) {}
+    virtual void pause_drawing(bool /*pauses*/) {}
     /// No more steps, but it still answers questions.
     virtual void stop() {}
     /// It ends after the step at hand.

@@ -64,7 +64,7 @@ GrowthOrder Growths::next_order() {
     const DocumentState& now = document_.now();
     GrowthOrder order{++last_number_, document_.version(), now.opened, now.unsaved, options_.scratch, options_.read};
     if (shown_) {
-        shown_->source().rest(true);
+        shown_->source().pause_drawing(true);
         order.before = shown_->source().shared_steps();
     }
     order.permission = permission_of(now.opened.path, options_.library_folder);
@@ -202,7 +202,7 @@ void Growths::note_failed(std::uint32_t growth, const std::vector<Diagnostic>& w
     note_opened(growth);
     if (next_ && next_->number() == growth) {
         retired_.add(std::move(next_));
-        if (shown_) shown_->source().rest(false);
+        if (shown_) shown_->source().pause_drawing(false);
         document_.broadcast_if_untold();
         document_.set_problems(why);
     } else if (is_shown(growth)) {

@@ -58,7 +58,7 @@ public:
 
     /// What beams bring that nothing has scattered, the same for all bands.
     CanopyFlux first(std::span<const LightBeam> beams) const;
-    /// The light of a band in which `first` is scattered until little is left; that shares the fate of the last
+    /// The light of a band in which `first` is scattered until little is left; the rest is distributed like the last
     /// generation, so that nothing is lost.
     CanopyBandLight band(const CanopyFlux& first, std::size_t band) const;
 

@@ -145,7 +145,7 @@ void ShadeBricks::forget_changes() {
     changed_.clear();
 }
 
-void ShadeBricks::keep_besides(std::size_t bytes) {
+void ShadeBricks::reserve_bytes(std::size_t bytes) {
     besides_ = bytes;
     require_memory(places(), bricks_.size() - unused_.size());
 }

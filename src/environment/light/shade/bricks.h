@@ -23,7 +23,7 @@ public:
     std::size_t bytes() const { return bytes(0, bricks_.size() - unused_.size()); }
     void limit_memory(std::size_t bytes) { memory_ = bytes; }
     /// So many bytes are, or soon will be, kept besides the bricks. Throws RunError if they do not fit beside them.
-    void keep_besides(std::size_t bytes);
+    void reserve_bytes(std::size_t bytes);
 
     static glm::ivec3 brick_of(const glm::ivec3& voxel) { return {voxel.x >> 3, voxel.y >> 3, voxel.z >> 3}; }
     static std::size_t offset(const glm::ivec3& v) {

@@ -109,7 +109,7 @@ ShadeField::Extremes ShadeField::extremes_of(std::span<const ShadeCast> casts) {
 
 // Every pyramid is as large as any other, so that the box of the apices gives theirs.
 void ShadeField::enclose(const ShadeCasts& casts, const Extremes& extremes) {
-    bricks_.keep_besides(casts.bytes() + ShadeSweep::bytes(casts));
+    bricks_.reserve_bytes(casts.bytes() + ShadeSweep::bytes(casts));
     VoxelBox box;
     if (!casts.casts().empty()) {
         box = {casts.bounds(extremes.lower).lower, casts.bounds(extremes.upper).upper};

@@ -122,7 +122,7 @@ struct LightOfTarget {
         read_lights(full_light, sums, lights);
         store(to + edge * y, lights);
     }
-    [[gnu::always_inline]] void give(ShadeTarget& target, int x) const {
+    [[gnu::always_inline]] void finish(ShadeTarget& target, int x) const {
         target.all |= any_of(all);
         target.leaf.shaded[x & 7] = any_of(shaded);
     }
@@ -130,7 +130,7 @@ struct LightOfTarget {
 struct NoLight {
     NoLight(const ShadeTarget&, int, double) {}
     void take(const EightShades&, int) {}
-    void give(ShadeTarget&, int) const {}
+    void finish(ShadeTarget&, int) const {}
 };
 
 // The sums at x, of brick after brick along z. Between bricks that do not follow each other nothing is shaded.
@@ -154,7 +154,7 @@ template <class Light>
             store(to, sums);
             light.take(sums, y);
         }
-        light.give(target, x);
+        light.finish(target, x);
     }
 }
 

@@ -1,3 +1,4 @@
+// Not among the shapes: the program says this without loading OpenVDB.
 #include "espalier/environment/shape.h"
 
 namespace espalier::environment {
