@@ -80,7 +80,7 @@ TEST_CASE("9 decomposition", "[conformance]") {
     CHECK(step("AE", "A --> BCB\ndecomposition\nBC --> DD\nB --> F\nE --> G\n") == "DDFG");
     CHECK(step("AX", "A --> B\nX --> C\ndecomposition\nBC --> DD\n") == "BC");
     quote(
-        "If no production replaces a module, they are that module and those behind it in the old string, before "
+        "If no production replaces a module, they are that module and those after it in the old string, before "
         "productions replace them.");
     CHECK(step("AB", "Z --> Z\ndecomposition\nAB --> C\n") == "C");
     CHECK(step("AB", "B --> Q\ndecomposition\nAB --> C\n") == "C");
