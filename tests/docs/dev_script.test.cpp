@@ -64,3 +64,32 @@ TEST_CASE_METHOD(Machine, "./dev run needs no VTK and builds what grows alone, s
     CHECK(dev("run scene.toml").code == 0);
     CHECK_THAT(calls(), Contains("-DESPALIER_LOOK=ON") && !Contains("UNITY") && Contains("espalier_look_commands"));
 }
+
+TEST_CASE_METHOD(Workplace, "./dev new writes the frame of a process once, and only of a name that can be one",
+                 "[docs]") {
+    namespace fs = std::filesystem;
+    const fs::path clone = path() / "clone";
+    for (const char* folder : {"src/environment/light", "tests/environment/light", "docs/examples"}) {
+        fs::create_directories(clone / folder);
+    }
+    for (const char* page : {"docs/clusters.md", "docs/environment-processes.md"}) {
+        fs::copy_file(fs::path(ESPALIER_SOURCE_DIR) / page, clone / page);
+    }
+    const auto made = [&](const std::string& words) {
+        return std::system((ESPALIER_SOURCE_DIR "/packaging/new-part process " + words + " '" + clone.string() +
+                            "' >'" + (path() / "said").string() + "' 2>&1")
+                               .c_str());
+    };
+    for (const char* words : {"wind-sway", "air/wind-sway", "light/Wind", "light/../wind", "light/wind-"}) {
+        CHECK(made(words) != 0);
+        CHECK_THAT(text_of(path() / "said"), Contains("is not SUBJECT/NAME"));
+    }
+    REQUIRE(made("light/wind-sway") == 0);
+    CHECK_THAT(text_of(clone / "src/environment/light/wind_sway.cpp"), Contains("class WindSway final"));
+    CHECK_THAT(text_of(clone / "tests/environment/light/wind_sway.test.cpp"), Contains("\"wind-sway\""));
+    CHECK_THAT(text_of(clone / "docs/examples/wind_sway.toml"), Contains("process = \"wind-sway\""));
+    CHECK_THAT(text_of(clone / "docs/clusters.md"), Contains("| `wind-sway` | nothing |"));
+    CHECK_THAT(text_of(clone / "docs/environment-processes.md"), Contains("reference/processes/wind-sway.md"));
+    CHECK(made("light/wind-sway") != 0);
+    CHECK_THAT(text_of(path() / "said"), Contains("exists already"));
+}
