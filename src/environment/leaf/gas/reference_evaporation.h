@@ -10,10 +10,10 @@ struct DayOfAir {
     double vapour_pressure = 1.5;      ///< kPa
     double wind = 2;                   ///< 2 m above the ground, m s-1
     double sunshine = 8;               ///< hours
-    std::optional<double> radiation;   ///< of the sun on level ground, MJ m-2 d-1; none: by the hours of sunshine
     double latitude = 50;              ///< degrees, positive in the north
     double height = 0;                 ///< above the sea, m
     int day = 180;                     ///< of the year, from 1
+    std::optional<double> radiation;   ///< of the sun on level ground, MJ m-2 d-1; none: by the hours of sunshine
 };
 
 struct ReferenceEvaporation {
