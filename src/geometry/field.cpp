@@ -37,6 +37,11 @@ const Field* Fields::find(const std::string& name) const {
     return &found->second;
 }
 
+FieldSource* Fields::shared(const std::string& name) const {
+    const auto found = shared_.find(name);
+    return found == shared_.end() ? nullptr : found->second;
+}
+
 const std::map<std::string, Field>& Fields::all() const {
     for (auto& [name, field] : fields_) bring_up_to_date(field);
     return fields_;

@@ -1,6 +1,6 @@
 // What pages are told of the sun and the sky of a scene, step by step.
 #include "environment/light/sky/scene_sky.h"
-#include "environment/light/sky/sun.h"
+#include "environment/light/sun/sun.h"
 #include "session_fixture.h"
 
 #include <fmt/format.h>

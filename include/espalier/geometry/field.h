@@ -15,7 +15,8 @@ namespace espalier::geometry {
 /// Holds an OpenVDB grid; defined in espalier/geometry/openvdb_grid.h, the one public header that includes OpenVDB.
 struct FieldGrid;
 
-/// What made a field, as far as other processes may work together with it: a soil with the roots in it.
+/// What made a field, or is shared without one, as far as other processes may work together with it: a soil with the
+/// roots in it, the weather over plants.
 class FieldSource {
 public:
     virtual ~FieldSource() = default;
@@ -44,8 +45,14 @@ public:
     const Field* find(const std::string& name) const;
     const std::map<std::string, Field>& all() const;
 
+    /// What is the same everywhere needs no grid: processes find it by the name of the one that has it.
+    void share(const std::string& name, FieldSource& source) { shared_[name] = &source; }
+    /// Null: no process has shared this name.
+    FieldSource* shared(const std::string& name) const;
+
 private:
     mutable std::map<std::string, Field> fields_;
+    std::map<std::string, FieldSource*> shared_;
 };
 
 }  // namespace espalier::geometry

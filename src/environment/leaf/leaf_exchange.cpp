@@ -3,6 +3,8 @@
 #include "espalier/environment/environment_process.h"
 
 #include "base/parallel.h"
+#include "environment/exchange/changing_settings.h"
+#include "environment/given/weather/weather.h"
 #include "environment/leaf/gas/settings.h"
 
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 namespace espalier::environment {
 namespace {
@@ -59,22 +62,29 @@ const std::array<LeafQuantity, 8>& known() {
 
 class LeafExchange final : public EnvironmentProcess {
 public:
-    LeafExchange(Settings& settings, const EnvironmentContext& context, Fields&)
+    LeafExchange(Settings& settings, const EnvironmentContext& context, Fields& fields)
         : name_(context.name),
           light_(settings.text("light")),
           light_place_(settings.place("light")),
           kind_(read_leaf_kind(settings)),
+          weather_(read_air(settings, fields)),
           air_(SceneAir::read(settings)),
           near_infrared_(settings.number_or("nir", 0.25, Range::between(0, 10))),
           potential_(settings.number_or("potential", 0, Range::between(-20, 0))),
-          days_(settings.number_or("days", 1, Range::positive())),
+          days_(read_days(settings, weather_.get())),
           leaves_(context.plants),
-          residuals_(context.plants, 0) {}
+          residuals_(context.plants, 0) {
+        for (const char* key : {"temperature", "humidity", "wind", "co2"}) {
+            if (!weather_ || settings.has(key)) own_air_.insert(key);
+        }
+        has_own_pressure_ = settings.has("pressure") || settings.has("height");
+    }
 
     void advance(const WorldView& world, std::span<const Query>, Fields&) override {
         if (!world.environment) throw RunError("leaf-exchange works in a scene's exchange only");
         find_light(*world.environment);
         seconds_ = world.dt * days_ * seconds_per_day;
+        take_weather();
         now_ = air_.air();
         dark_ = {0, 0, air_.thermal_radiation()};
         unlit_ = gas_exchange(kind_, dark_, now_, potential_);
@@ -138,21 +148,37 @@ public:
     }
 
     std::vector<ChangingSetting> changing_settings() override {
-        const auto number = [](std::string key, Range range, double& value) {
-            return ChangingSetting{std::move(key), range, [&value](double now) { value = now; }};
-        };
-        return {number("temperature", Range::between(-40, 60), air_.temperature),
-                number("humidity", Range::between(0, 1), air_.humidity),
-                number("wind", Range::between(0.01, 100), air_.wind),
-                number("co2", Range::between(50, 10000), air_.carbon_dioxide),
-                number("cloud", Range::between(0, 1), air_.cloud),
-                number("potential", Range::between(-20, 0), potential_)};
+        std::vector<ChangingSetting> all{changing("temperature", Range::between(-40, 60), air_.temperature),
+                                         changing("humidity", Range::between(0, 1), air_.humidity),
+                                         changing("wind", Range::between(0.01, 100), air_.wind),
+                                         changing("co2", Range::between(50, 10000), air_.carbon_dioxide)};
+        std::erase_if(all, [&](const ChangingSetting& one) { return !own_air_.contains(one.key); });
+        all.push_back(changing("cloud", Range::between(0, 1), air_.cloud));
+        all.push_back(changing("potential", Range::between(-20, 0), potential_));
+        return all;
     }
 
     std::pair<int, int> query_arity() const override { return {1, 7}; }
     Spreading spreading() const override { return Spreading::plants; }
 
 private:
+    static std::shared_ptr<const Weather> read_air(const Settings& settings, const Fields& fields) {
+        if (!settings.has("air")) return nullptr;
+        return Weather::named(settings.text("air"), fields, settings.place("air"));
+    }
+
+    /// What the scene says of these leaves themselves stays.
+    void take_weather() {
+        if (!weather_) return;
+        constexpr double calm = 0.1;  // m/s: air over warm leaves moves
+        const AirOfStep& air = weather_->now();
+        if (!own_air_.contains("temperature")) air_.temperature = air.temperature;
+        if (!own_air_.contains("humidity")) air_.humidity = air.humidity;
+        if (!own_air_.contains("wind")) air_.wind = std::max(calm, air.wind);
+        if (!own_air_.contains("co2")) air_.carbon_dioxide = air.carbon_dioxide;
+        if (!has_own_pressure_) air_.pressure = air.pressure;
+    }
+
     void find_light(const Environment& environment) {
         const auto light = environment.find(light_), self = environment.find(name_);
         const std::vector<OrganQuantity> all = environment.organ_quantities();
@@ -217,7 +243,10 @@ private:
     std::string name_, light_;
     Place light_place_;
     LeafKind kind_;
+    std::shared_ptr<const Weather> weather_;  ///< null: the air is the table's alone
     SceneAir air_;
+    std::set<std::string> own_air_;  ///< keys that the weather does not change
+    bool has_own_pressure_ = false;
     double near_infrared_, potential_, days_;
     // Of the step.
     double seconds_ = 0;
@@ -244,7 +273,9 @@ days           1; days that a unit of time stands for
 Of the leaves:
 )" + leaf_help() +
         R"(
-Of the air; temperature, humidity, wind, co2, cloud and potential may have keyframes:
+Of the air; temperature, humidity, wind, co2, cloud and potential may have keyframes. Of the first four and the pressure, what
+is not written here is the weather's, where `air` names one; its calm is a wind of 0.1 m/s at the leaves:
+air            none; the name of a process weather that stands before this one
 )" + air_help() +
         R"(
 ?name(gain)                        -> net CO2 in the step of the leaf that follows the query, mol

@@ -47,7 +47,8 @@ public:
     CanopyLight(Settings& settings, const EnvironmentContext& context, Fields& fields)
         : name_(context.name),
           memory_(context.memory),
-          sky_(settings.table("sky"), least_rise, context.warnings),
+          weather_(weather_of_sky(settings.table("sky"), fields)),
+          sky_(settings.table("sky"), least_rise, weather_, context.warnings),
           optics_(settings),
           organs_(settings, optics_.bands(), context.plants),
           angles_(read_angles(settings)),
@@ -55,7 +56,7 @@ public:
           edge_(read_voxel(settings, 0.2)),
           edge_place_(settings.place("voxel")),
           ground_(settings.number_or("ground", 0)),
-          days_(settings.number_or("days", 1, Range::positive())),
+          days_(read_days(settings, weather_.get())),
           stems_(settings.flag_or("stems", true)),
           asks_area_(settings.choice_or("area", "drawn", {"drawn", "queries"}) == "queries"),
           plants_(context.plants) {
@@ -278,6 +279,7 @@ private:
 
     std::string name_;
     std::size_t memory_;
+    std::shared_ptr<const Weather> weather_;  ///< that the sky names; null: none
     DaylightSeries sky_;
     Optics optics_;
     OrganLight organs_;

@@ -41,9 +41,14 @@ LightPaths::Options read_path_options(const Settings& settings, const Environmen
     return options;
 }
 
-std::optional<DaylightSeries> read_daylight(const Settings& settings, const EnvironmentContext& context) {
+std::optional<DaylightSeries> read_daylight(const Settings& settings, const std::shared_ptr<const Weather>& weather,
+                                            const EnvironmentContext& context) {
     if (settings.has("lamps") && !settings.has("sky")) return std::nullopt;
-    return DaylightSeries(settings.table("sky"), least_elevation, context.warnings);
+    return DaylightSeries(settings.table("sky"), least_elevation, weather, context.warnings);
+}
+
+std::shared_ptr<const Weather> read_weather(const Settings& settings, const Fields& fields) {
+    return settings.has("sky") ? weather_of_sky(settings.table("sky"), fields) : nullptr;
 }
 
 /// Level, along the axes, in square cells: such a sensor is a field.
@@ -60,13 +65,14 @@ public:
         : name_(context.name),
           seed_(context.seed),
           memory_(context.memory),
-          sky_(read_daylight(settings, context)),
+          weather_(read_weather(settings, fields)),
+          sky_(read_daylight(settings, weather_, context)),
           optics_(settings),
           organs_(settings, optics_.bands(), context.plants),
           lamps_(read_lamps(settings, optics_.bands(), context.warnings)),
           paths_(optics_, read_sensors(settings), read_path_options(settings, context)),
           ground_(settings.number_or("ground", 0)),
-          days_(settings.number_or("days", 1, Range::positive())),
+          days_(read_days(settings, weather_.get())),
           count_(static_cast<std::uint32_t>(settings.integer_or("paths", 1 << 16, Range::between(64, most_paths)))),
           accuracy_(settings.number_or("accuracy", 0, Range::between(0, 1))),
           paths_place_(settings.place("paths")),
@@ -442,6 +448,7 @@ private:
     std::string name_;
     std::uint64_t seed_;
     std::size_t memory_;
+    std::shared_ptr<const Weather> weather_;  ///< that the sky names; null: none
     std::optional<DaylightSeries> sky_;
     Optics optics_;
     OrganLight organs_;

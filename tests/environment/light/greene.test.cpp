@@ -1,7 +1,7 @@
 #include "catch.h"
 #include "environment/exchange/exchange_plants.h"
 #include "environment/light/shade/exposure.h"
-#include "environment/light/sky/sun.h"
+#include "environment/light/sun/sun.h"
 #include "environment/space/shapes/tables.h"
 
 #include <glm/geometric.hpp>

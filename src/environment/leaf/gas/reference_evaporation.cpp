@@ -40,8 +40,9 @@ double long_wave(const DayOfAir& day, double share_of_clear) {
 
 ReferenceEvaporation reference_evaporation(const DayOfAir& day) {
     const SkyOfDay sky = sky_of(day.latitude, day.day);
-    const double sun = (0.25 + (sky.hours > 0 ? 0.5 * day.sunshine / sky.hours : 0)) * sky.radiation;  // eq. 35
-    const double clear = (0.75 + 2e-5 * day.height) * sky.radiation;                                   // eq. 37
+    const double by_sunshine = (0.25 + (sky.hours > 0 ? 0.5 * day.sunshine / sky.hours : 0)) * sky.radiation;  // eq. 35
+    const double sun = day.radiation.value_or(by_sunshine);
+    const double clear = (0.75 + 2e-5 * day.height) * sky.radiation;  // eq. 37
     const double share = clear > 0 ? std::min(1.0, sun / clear) : 0;
     const double net = (1 - 0.23) * sun - long_wave(day, share);
     const double mean = (day.highest + day.lowest) / 2, slope = saturation_slope(mean);

@@ -1,6 +1,8 @@
 // What a short lawn that lacks no water evaporates in a day: FAO-56 (Allen, Pereira, Raes & Smith 1998).
 #pragma once
 
+#include <optional>
+
 namespace espalier::environment::leaf {
 
 struct DayOfAir {
@@ -11,6 +13,7 @@ struct DayOfAir {
     double latitude = 50;              ///< degrees, positive in the north
     double height = 0;                 ///< above the sea, m
     int day = 180;                     ///< of the year, from 1
+    std::optional<double> radiation;   ///< of the sun on level ground, MJ m-2 d-1; none: by the hours of sunshine
 };
 
 struct ReferenceEvaporation {

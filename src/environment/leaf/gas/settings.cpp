@@ -32,19 +32,24 @@ LeafKind read_leaf_kind(const Settings& settings) {
     return leaf;
 }
 
+double read_humidity(const Settings& settings, double fallback) {
+    const double humidity = settings.number_or("humidity", fallback, Range::not_negative());
+    if (humidity <= 1) return humidity;
+    throw UserError(settings.place("humidity"), "'humidity' is a share from 0 to 1: write 0.6 for 60 %");
+}
+
+double read_carbon_dioxide(const Settings& settings, double fallback) {
+    const double carbon_dioxide = settings.number_or("co2", fallback, Range::positive());
+    if (carbon_dioxide >= 50 && carbon_dioxide <= 10000) return carbon_dioxide;
+    throw UserError(settings.place("co2"), "'co2' is in umol per mol of air, 50 to 10000: 40 Pa at sea level are 400");
+}
+
 SceneAir SceneAir::read(const Settings& settings) {
     SceneAir air;
     air.temperature = settings.number_or("temperature", air.temperature, Range::between(-40, 60));
-    air.humidity = settings.number_or("humidity", air.humidity, Range::not_negative());
-    if (air.humidity > 1) {
-        throw UserError(settings.place("humidity"), "'humidity' is a share from 0 to 1: write 0.6 for 60 %");
-    }
+    air.humidity = read_humidity(settings, air.humidity);
     air.wind = settings.number_or("wind", air.wind, Range::between(0.01, 100));
-    air.carbon_dioxide = settings.number_or("co2", air.carbon_dioxide, Range::positive());
-    if (air.carbon_dioxide < 50 || air.carbon_dioxide > 10000) {
-        throw UserError(settings.place("co2"),
-                        "'co2' is in umol per mol of air, 50 to 10000: 40 Pa at sea level are 400");
-    }
+    air.carbon_dioxide = read_carbon_dioxide(settings, air.carbon_dioxide);
     if (settings.has("pressure") && settings.has("height")) {
         throw UserError(settings.place("height"), "give either 'height' above the sea or 'pressure'");
     }

@@ -13,6 +13,10 @@ namespace espalier::environment::leaf {
 /// Reads `pathway`, `v`, `jmax`, `rd`, `tpu`, `stomata`, `g0`, `g1`, `d0`, `sf`, `psi_f`, `width`.
 LeafKind read_leaf_kind(const Settings& settings);
 
+/// The keys `humidity`, 0 to 1, and `co2`, umol mol-1, of which errors say what to write instead of % and Pa.
+double read_humidity(const Settings& settings, double fallback);
+double read_carbon_dioxide(const Settings& settings, double fallback);
+
 /// The air of a step, the same for all leaves.
 struct SceneAir {
     double temperature = 25;        ///< degrees Celsius

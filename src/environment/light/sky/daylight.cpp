@@ -34,12 +34,25 @@ double light_of(const Settings& sky, const char* key) {
 
 }  // namespace
 
+std::shared_ptr<const Weather> weather_of_sky(const Settings& sky, const Fields& fields) {
+    if (!sky.has("weather")) return nullptr;
+    return Weather::named(sky.text("weather"), fields, sky.place("weather"));
+}
+
 DaylightSeries::DaylightSeries(const Settings& sky, double lowest_rise, std::vector<Diagnostic>* warnings)
+    : DaylightSeries(sky, lowest_rise, nullptr, warnings) {}
+
+DaylightSeries::DaylightSeries(const Settings& sky, double lowest_rise, const std::shared_ptr<const Weather>& weather,
+                               std::vector<Diagnostic>* warnings)
     : least_rise_(lowest_rise) {
     read_sky(sky);
     north_ = unit_vector(sky, "north", {0, 0, -1});
     if (north_.y != 0) throw UserError(sky.place("north"), "'north' must be horizontal: [x, 0, z]");
     if (sky.has("diffuse")) diffuse_ = sky.number("diffuse", Range::between(0, 1));
+    if (weather) {
+        read_weather(sky, *weather);
+        return;
+    }
     photons_.of_par = sky.number_or("photons", 4.57, Range::positive());
     photons_.of_global = photons_.of_par * sky.number_or("par_share", 0.5, Range{0, 1, true});
     if (sky.has("par") || sky.has("global")) {
@@ -101,7 +114,15 @@ void DaylightSeries::read_path(const Settings& sky, std::vector<Diagnostic>* war
     place_.latitude = sky.number_or("latitude", 50, Range::between(-90, 90));
     place_.longitude = sky.number_or("longitude", 0, Range::between(-180, 180));
     place_.zone = sky.number_or("zone", 0, Range::between(-14, 14));
-    if (sky.has("series")) series_.emplace(sky.path("series"), photons_, warnings);
+    if (sky.has("series")) {
+        WeatherReading reading;
+        reading.light_only = true;
+        reading.fill_hours = read_fill_hours(sky);
+        reading.photons_of_par = photons_.of_par;
+        reading.photons_of_global = photons_.of_global;
+        reading.warnings = warnings;
+        series_.emplace(std::make_shared<const WeatherTable>(read_weather_file(sky.path("series"), reading)));
+    }
     const bool is_dated = series_ && series_->year() > 0;
     year_ = static_cast<double>(sky.integer_or("year", is_dated ? series_->year() : 2025, Range::between(1950, 2050)));
     day_ = sky.number_or("day", is_dated ? series_->day() : 172, Range::between(1, 366));
@@ -128,16 +149,42 @@ void DaylightSeries::read_hours(const Settings& sky) {
     }
 }
 
+/// Place, date and light are the weather's.
+void DaylightSeries::read_weather(const Settings& sky, const Weather& weather) {
+    for (const char* key : {"par", "global", "series", "latitude", "longitude", "zone", "year", "day", "repeat",
+                            "clearness", "hours", "integration", "par_share", "photons", "fill"}) {
+        if (!sky.has(key)) continue;
+        throw UserError(sky.place(key), fmt::format("'{}' is the weather's: leave it out here, or 'weather'", key));
+    }
+    if (!weather.has_radiation()) {
+        throw UserError(sky.place("weather"),
+                        fmt::format("the weather '{}' has no light: give it 'radiation' (MJ m-2 d-1), a file with a "
+                                    "column 'global (W m-2)', or the sky light of its own, as 'clearness'",
+                                    sky.text("weather")));
+    }
+    place_ = weather.place();
+    year_ = weather.year();
+    day_ = weather.day();
+    repeats_ = weather.repeats();
+    sample_ = sky.number_or("sample", 0.5, Range::between(0.01, 24));
+    series_.emplace(weather.table());
+    require_light_by_day();
+}
+
 void DaylightSeries::read_series(const Settings& sky) {
     repeats_ = sky.flag_or("repeat", false);
     sample_ = sky.number_or("sample", 0.5, Range::between(0.01, 24));
+    require_light_by_day();
+}
+
+void DaylightSeries::require_light_by_day() const {
     for (const MeasuredLight& row : series_->rows()) {
-        const SunPosition sun =
-            sun_position(place_, {year_, day_ + std::floor(row.hours / 24), std::fmod(row.hours, 24)});
+        const SunPosition sun = sun_position(
+            place_, {year_, day_ + std::floor(row.hours / 24), row.hours - 24 * std::floor(row.hours / 24)});
         const double below = -sun.elevation * 180 / std::numbers::pi;
         if (below < 3 || row.global < 50) continue;
         throw UserError(
-            {series_->path().string(), row.line, 0},
+            {series_->source(), row.line, 0},
             fmt::format("{:.4g} W m-2 are measured while the sun stands {:.0f} degrees below the horizon: check "
                         "latitude, longitude and zone, and that times are civil time of the place",
                         row.global, below));
@@ -261,19 +308,19 @@ double DaylightSeries::series_hours(double hours) const {
 
 void DaylightSeries::add_series(double elapsed, double days, Sums& sums) const {
     const double from = 24 * elapsed, to = 24 * (elapsed + days);
-    const double row = series_->rows()[1].hours - series_->first();
+    const double row = series_->rows()[1].hours - series_->rows()[0].hours;
     if (!repeats_ && (from < series_->first() - row || to > series_->last() + row)) {
         throw RunError(
             fmt::format("{} has light from {:g} to {:g} hours, and this step needs {:g} to {:g}: measure longer, "
                         "or let it begin anew with sky.repeat = true",
-                        series_->path().string(), series_->first(), series_->last(), from, to));
+                        series_->source(), series_->first(), series_->last(), from, to));
     }
     std::vector<double> breaks{from, to};
     for (double at = std::ceil(from / sample_) * sample_; at < to; at += sample_) breaks.push_back(at);
     if (!repeats_) {
-        for (const MeasuredLight& measured : series_->rows()) {
-            if (measured.hours > from && measured.hours < to) breaks.push_back(measured.hours);
-        }
+        const std::span<const double> all = series_->breaks();
+        breaks.insert(breaks.end(), std::upper_bound(all.begin(), all.end(), from),
+                      std::lower_bound(all.begin(), all.end(), to));
     }
     std::sort(breaks.begin(), breaks.end());
     // Light changes evenly in between, so the middle is the mean.
@@ -337,8 +384,12 @@ series        a CSV file. Its header names columns and units: "time (h)" since t
               et al. 1982. Commas, semicolons or tabs separate its cells. Values from -20 to 0 are 0; cells that are
               empty, NA, 9999 and the like were not measured, and other columns stand for them. Light changes evenly
               from row to row, and each step gets the integral over its time
+fill          "none", or "linear", and fill_hours (3): as the process weather has them
 sample        0.5 hours: how often the sun is looked at
 repeat        false; true begins the series anew where it ends
+
+With weather, the light, the place and the time are those of a process weather:
+weather       the name of one that stands before this in the scene, and knows radiation. sample and diffuse as above
 )help";
     return text;
 }

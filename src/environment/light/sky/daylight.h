@@ -3,13 +3,15 @@
 
 #include "espalier/base/settings.h"
 
+#include "environment/given/weather/weather.h"
 #include "environment/light/sky/bands.h"
 #include "environment/light/sky/light_series.h"
 #include "environment/light/sky/radiance.h"
-#include "environment/light/sky/sun.h"
+#include "environment/light/sun/sun.h"
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +46,9 @@ class DaylightSeries {
 public:
     /// Beams that come from lower than `lowest_rise`, the sine of their elevation, are left out. Throws UserError.
     DaylightSeries(const Settings& sky, double lowest_rise, std::vector<Diagnostic>* warnings = nullptr);
+    /// The same where `sky` may name a weather of the scene; null: it names none.
+    DaylightSeries(const Settings& sky, double lowest_rise, const std::shared_ptr<const Weather>& weather,
+                   std::vector<Diagnostic>* warnings);
 
     /// The day on which the light begins, counted from 1 on 1 January.
     double first_day() const { return day_; }
@@ -86,7 +91,9 @@ private:
     void read_suns(const Settings& sky);
     void read_path(const Settings& sky, std::vector<Diagnostic>* warnings);
     void read_hours(const Settings& sky);
+    void read_weather(const Settings& sky, const Weather& weather);
     void read_series(const Settings& sky);
+    void require_light_by_day() const;
     SkyRadiance radiance(const glm::dvec3& sun) const;
     void add(const Moment& moment, Sums& sums) const;
     Moment at_hour(double day, const Hour& hour, int slot) const;
@@ -109,10 +116,17 @@ private:
     glm::dvec3 north_{0, 0, -1};
     GroundPlace place_;
     double year_ = 2025, day_ = 172, clearness_ = 0.5;
-    LightSeries::Photons photons_;
+    /// umol of PAR per joule of PAR, and of all wavelengths.
+    struct Photons {
+        double of_par = 4.57;
+        double of_global = 0.5 * 4.57;
+    } photons_;
     bool adaptive_ = false;
     std::vector<Hour> hours_;  ///< of a day, and how many each stands for
 };
+
+/// The weather that the table `sky` names, if it does. Throws UserError where the scene has none of that name.
+std::shared_ptr<const Weather> weather_of_sky(const Settings& sky, const Fields& fields);
 
 /// What users read of the table.
 const std::string& sky_help();

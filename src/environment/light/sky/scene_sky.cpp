@@ -25,7 +25,9 @@ constexpr double least_rise = 0.0349;  // sine of 2 degrees, as the processes ha
 /// A table as run.json holds it: JSON writes numbers, texts and lists as TOML does.
 Settings settings_of(const Json& json, const std::string& name, const fs::path& folder) {
     std::string text;
-    for (const auto& [key, value] : json.items()) text += fmt::format("{} = {}\n", key, value.dump());
+    for (const auto& [key, value] : json.items()) {
+        if (!value.is_object()) text += fmt::format("{} = {}\n", key, value.dump());
+    }
     return Settings::parse_toml(text, name, folder);
 }
 
@@ -39,6 +41,13 @@ SceneSky::Kind kind_of(const Json& sky) {
 
 double number_or(const Json& table, const char* key, double otherwise) {
     return table.contains(key) && table[key].is_number() ? table[key].get<double>() : otherwise;
+}
+
+/// That the sky names; null: none.
+std::shared_ptr<const Weather> weather_of(const Json& sky, const Json& processes, const fs::path& folder) {
+    if (!sky.contains("weather") || !sky["weather"].is_string()) return nullptr;
+    const std::string name = sky["weather"];
+    return std::make_shared<Weather>(settings_of(processes.at(name), name, folder));
 }
 
 // A run.json from elsewhere may hold anything.
@@ -79,7 +88,8 @@ std::optional<SceneSky> sky_of_processes(const Json& processes, double dt, const
         if (!process.contains("sky") || !process["sky"].is_object() || process["sky"].empty()) continue;
         const Json& sky = process["sky"];
         try {
-            auto light = std::make_shared<DaylightSeries>(settings_of(sky, name + ".sky", folder), least_rise);
+            auto light = std::make_shared<DaylightSeries>(settings_of(sky, name + ".sky", folder), least_rise,
+                                                          weather_of(sky, processes, folder), nullptr);
             return SceneSky(std::move(light), kind_of(sky), number_or(process, "days", 1), dt);
         } catch (const UserError& error) {
             throw UserError(fmt::format("the sky of '{}' cannot be drawn: {}", name, error.what()));

@@ -33,6 +33,8 @@ map            none; { field = "ground", soils = ["loam", "sand"] }, where a fie
 boundaries     closed; what happens at the sides of the domain, in a table
     top        "no-flux" (the default), or a table with the keys rain, evaporation, ponding and dry_limit, or { flux } in mm/d
                into the soil, or { head } in cm
+    weather    the name of a process weather that stands before this one: its rain falls on the surface, and its reference
+               evaporation (FAO-56) is the potential one, unless rain or evaporation stand here, too
     rain       rain on the surface, mm/d
     evaporation  potential evaporation from bare soil, mm/d; it falls behind where the surface reaches dry_limit
     ponding    depth of water that may stand on the surface before it runs off, mm, by default 0

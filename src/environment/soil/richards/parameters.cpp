@@ -3,6 +3,7 @@
 #include "espalier/base/math.h"
 
 #include "base/text.h"
+#include "environment/given/weather/weather.h"
 #include "environment/soil/hydraulics/heads.h"
 #include "environment/soil/richards/read_kinds.h"
 
@@ -137,7 +138,30 @@ void read_map(const Settings& settings, const Settings& named, SoilParameters& p
     }
 }
 
-void read_surface(const Settings& boundaries, SoilSurface& surface) {
+/// The weather's rain and evaporation; what the table says itself counts instead.
+void read_weather(const Settings& top, const std::shared_ptr<const Weather>& weather, SoilSurface& surface) {
+    const auto next_change = [weather](double day) { return weather->next_change(day); };
+    if (!top.has("rain")) {
+        surface.rain = SoilSeries::of([weather](double day) { return weather->rain_rate(day); }, next_change);
+    }
+    if (top.has("evaporation")) return;
+    if (!weather->has_radiation()) {
+        throw UserError(top.place("weather"),
+                        fmt::format("the weather '{}' knows no radiation, and so no evaporation: give it 'radiation' "
+                                    "or a file with a column 'global (W m-2)', or write evaporation = ... (mm/d) here",
+                                    top.text("weather")));
+    }
+    surface.evaporation = SoilSeries::of([weather](double day) { return weather->evaporation_rate(day); }, next_change);
+}
+
+std::shared_ptr<const Weather> weather_above(const Settings& settings, const Fields& fields) {
+    const Settings boundaries = settings.table("boundaries");
+    if (!boundaries.is_table("top") || !boundaries.table("top").has("weather")) return nullptr;
+    const Settings top = boundaries.table("top");
+    return Weather::named(top.text("weather"), fields, top.place("weather"));
+}
+
+void read_surface(const Settings& boundaries, const std::shared_ptr<const Weather>& weather, SoilSurface& surface) {
     if (!boundaries.is_table("top")) {
         boundaries.choice_or("top", "no-flux", {"no-flux"});
         return;
@@ -153,6 +177,7 @@ void read_surface(const Settings& boundaries, SoilSurface& surface) {
         surface.kind = SoilSurface::Kind::atmosphere;
         surface.rain = SoilSeries::read(top, "rain", 0, rate_range);
         surface.evaporation = SoilSeries::read(top, "evaporation", 0, rate_range);
+        if (weather) read_weather(top, weather, surface);
         surface.dry_limit = read_head_or(top, "dry_limit", -10000, Range::between(-1e6, -1));
         surface.ponding = top.number_or("ponding", 0, rate_range);
     }
@@ -243,12 +268,14 @@ OutsideSoil read_outside(const Settings& settings) {
     return word == "ignore" ? OutsideSoil::ignored : OutsideSoil::root_ends;
 }
 
-SoilParameters read_soil_parameters(Settings& settings, const EnvironmentContext& context, bool is_still) {
+SoilParameters read_soil_parameters(Settings& settings, const EnvironmentContext& context, bool is_still,
+                                    const Fields& fields) {
     SoilParameters parameters;
+    const std::shared_ptr<const Weather> weather = is_still ? nullptr : weather_above(settings, fields);
     parameters.is_still = is_still;
     read_water_space(settings, context, parameters.water);
     parameters.water.unit = "m3/m3";
-    parameters.days = settings.number_or("days", 1, Range{0, 1e6, true});
+    parameters.days = read_days(settings, weather.get());
     const Settings named = settings.table("soils");
     parameters.kind = read_soil_kind(settings, "soil", named, parameters);
     read_layers(settings, named, parameters);
@@ -265,7 +292,7 @@ SoilParameters read_soil_parameters(Settings& settings, const EnvironmentContext
 
     const Settings boundaries = settings.table("boundaries");
     if (!is_still) {
-        read_surface(boundaries, parameters.surface);
+        read_surface(boundaries, weather, parameters.surface);
         read_floor(boundaries, parameters.floor);
     }
     parameters.periodic = boundaries.choice_or("sides", "closed", {"closed", "periodic"}) == "periodic";

@@ -112,8 +112,9 @@ struct SoilParameters {
     double wilting_head = -15000;  ///< cm: what queries leave in the soil
 };
 
-/// `is_still`: what model = "still" reads. Throws UserError.
-SoilParameters read_soil_parameters(Settings& settings, const EnvironmentContext& context, bool is_still = false);
+/// `is_still`: what model = "still" reads. `fields`: of the scene, with its weather. Throws UserError.
+SoilParameters read_soil_parameters(Settings& settings, const EnvironmentContext& context, bool is_still = false,
+                                    const Fields& fields = {});
 
 /// Adds to `warnings`, unless null, that a root has left the soil, and sets the pointer to null.
 void warn_of_root_outside(std::vector<Diagnostic>*& warnings, const SoilParameters& soil, const std::string& process,

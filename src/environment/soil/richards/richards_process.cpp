@@ -44,7 +44,7 @@ WaterGrid layer_on(const WaterGrid& soil) {
 class RichardsSoil final : public EnvironmentProcess, public SharedSoil {
 public:
     RichardsSoil(Settings& settings, const EnvironmentContext& context, Fields& fields, bool is_still)
-        : parameters_(read_soil_parameters(settings, context, is_still)),
+        : parameters_(read_soil_parameters(settings, context, is_still, fields)),
           grid_(affordable_soil(parameters_, context)),
           solids_(parameters_.water),
           layout_((solids_.look(fields), SoilLayout(grid_, parameters_, solids_.free_voxels(grid_), fields))),

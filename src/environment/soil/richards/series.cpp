@@ -34,6 +34,13 @@ SoilSeries SoilSeries::read(const Settings& settings, const std::string& key, do
     return read_file(settings.table(key), settings.table(key).text("column"), range, {});
 }
 
+SoilSeries SoilSeries::of(std::function<double(double)> at, std::function<double(double)> next_change) {
+    SoilSeries series;
+    series.given_ = std::move(at);
+    series.given_change_ = std::move(next_change);
+    return series;
+}
+
 SoilSeries SoilSeries::read_head(const Settings& settings, const std::string& key, Range range) {
     if (!settings.is_table(key)) return SoilSeries(environment::read_head(settings, key, range));
     const Settings table = settings.table(key);
@@ -78,6 +85,7 @@ SoilSeries SoilSeries::read_file(const Settings& table, const std::string& colum
 }
 
 double SoilSeries::at(double day) const {
+    if (given_) return given_(day);
     if (is_constant()) return values_[0];
     const std::size_t count = times_.size();
     const double span = count > 1 ? times_[count - 1] - times_[count - 2] : std::numeric_limits<double>::infinity();
@@ -92,6 +100,7 @@ double SoilSeries::at(double day) const {
 }
 
 double SoilSeries::next_change(double day) const {
+    if (given_change_) return given_change_(day);
     const auto after = std::upper_bound(times_.begin(), times_.end(), day + 1e-9 * (1 + std::abs(day)));
     return after == times_.end() ? std::numeric_limits<double>::infinity() : *after;
 }

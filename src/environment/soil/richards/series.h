@@ -24,7 +24,10 @@ public:
     /// column, unit = "hPa" }. The range is in cm.
     static SoilSeries read_head(const Settings& settings, const std::string& key, Range range);
 
-    bool is_constant() const { return times_.empty(); }
+    /// What another gives by time: a number at a day, and when it changes next.
+    static SoilSeries of(std::function<double(double)> at, std::function<double(double)> next_change);
+
+    bool is_constant() const { return times_.empty() && !given_; }
     void set(double value) { values_ = {value}; }
     double& constant() { return values_[0]; }
     /// Throws RunError before the first time and behind the last.
@@ -40,6 +43,7 @@ private:
     static SoilSeries read_file(const Settings& table, const std::string& column, Range range, const Convert& convert);
 
     std::string name_;  ///< "weather.csv: rain"
+    std::function<double(double)> given_, given_change_;
     std::vector<double> times_, values_{0};
 };
 

@@ -1,4 +1,4 @@
-#include "environment/light/sky/sun.h"
+#include "environment/light/sun/sun.h"
 
 #include "espalier/base/math.h"
 

@@ -1,0 +1,114 @@
+#include "environment/given/weather/weather_text.h"
+
+#include "espalier/base/file.h"
+
+#include "base/byte_order_mark.h"
+#include "base/csv_file.h"
+#include "base/number.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <sstream>
+
+namespace espalier::environment {
+namespace {
+
+std::string without_blanks_around(const std::string& text) {
+    const std::size_t begin = text.find_first_not_of(" \t\r");
+    if (begin == std::string::npos) return "";
+    return text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin);
+}
+
+bool is_code(double value, double missing) {
+    return missing > 0 ? value >= missing : value <= missing;
+}
+
+bool is_leap_year(int year) {
+    return std::chrono::year(year).is_leap();
+}
+
+}  // namespace
+
+std::vector<TextLine> weather_lines(const std::filesystem::path& path) {
+    std::string text = read_text(path);
+    text.erase(0, byte_order_mark(text));
+    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
+        throw UserError({path.string(), 1, 0}, "this file is UTF-16: save it in UTF-8");
+    }
+    std::istringstream stream(text);
+    std::vector<TextLine> lines;
+    std::string line;
+    for (int number = 1; std::getline(stream, line); ++number) {
+        line = without_blanks_around(line);
+        if (!line.empty()) lines.push_back({number, line});
+    }
+    return lines;
+}
+
+std::vector<std::string> weather_cells(const std::string& text) {
+    std::vector<std::string> cells = csv_cells(text);
+    for (std::string& cell : cells) cell = without_blanks_around(cell);
+    return cells;
+}
+
+std::optional<double> weather_number(const std::string& cell) {
+    return finite_number(cell.starts_with('+') ? std::string_view(cell).substr(1) : std::string_view(cell));
+}
+
+void set_cells(WeatherRows& rows, std::span<const FormColumn> columns, const std::vector<std::string>& cells, int line,
+               const WeatherReading& reading) {
+    for (const FormColumn& column : columns) {
+        if (reading.given.contains(quantity_of(column.measure))) continue;
+        if (reading.light_only && !is_light(column.measure)) continue;
+        const int number = static_cast<int>(column.cell + 1);
+        if (column.cell >= cells.size()) {
+            rows.miss(column.measure, number, "");
+            continue;
+        }
+        const std::string& cell = cells[column.cell];
+        const std::optional<double> value = weather_number(cell);
+        if (!value && !cell.empty()) {
+            rows.refuse(line, number, fmt::format("'{}' is '{}', which is no number", name_of(column.measure), cell));
+        }
+        if (!value || is_code(*value, column.missing)) {
+            rows.miss(column.measure, number, cell);
+        } else {
+            rows.set(column.measure, *value * column.factor, number, cell);
+        }
+    }
+}
+
+double CalendarOfMonths::hours(const WeatherRows& rows, int line, int year, int month, int day, double at) {
+    if (!days_of_date(is_leap_year(year) ? year : 2024, month, day) || !(at >= 0) || at > 24) {
+        rows.refuse(line, 0, fmt::format("{}-{:02}-{:02} hour {:g} is no time", year, month, day, at));
+    }
+    if (first_month_ == 0) {
+        first_year_ = year;
+        first_month_ = month_ = month;
+        first_day_ = day_ = day;
+        return at;
+    }
+    if (month == month_ && day == day_) return 24.0 * static_cast<double>(days_) + at;
+    const int last[] = {31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+    const bool ends_february = month_ == 2 && day_ == 28 && month == 3 && day == 1;
+    const bool is_next_day = month == month_ && day == day_ + 1;
+    const bool begins_month = month == month_ % 12 + 1 && day == 1 && day_ == last[month_ - 1];
+    if (!is_next_day && !begins_month && !ends_february) {
+        rows.refuse(line, 0,
+                    fmt::format("after {:02}-{:02} comes {:02}-{:02}: there is a gap in time, or rows are out of order",
+                                month_, day_, month, day));
+    }
+    if (ends_february) has_leap_day_ = false;
+    if (month == 2 && day == 29) has_leap_day_ = true;
+    month_ = month;
+    day_ = day;
+    return 24.0 * static_cast<double>(++days_) + at;
+}
+
+int CalendarOfMonths::year() const {
+    if (!has_leap_day_ || *has_leap_day_ == is_leap_year(first_year_)) return first_year_;
+    return *has_leap_day_ ? 2024 : 2025;
+}
+
+}  // namespace espalier::environment
