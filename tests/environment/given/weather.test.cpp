@@ -8,6 +8,8 @@
 #include "environment/light/sky/daylight.h"
 #include "temporary_folder.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -107,4 +109,72 @@ TEST_CASE("the light of a day follows the sun and has the day's sum", "[weather]
     CHECK(day.highest == Approx(25).margin(0.02));
     CHECK(day.lowest == Approx(10).margin(0.02));
     CHECK(day_of_sun({0, 0, 0}, 2025, 80, 0).length() == Approx(12).margin(0.01));
+}
+
+TEST_CASE("TMY3: hours end at their stamp, months are of their own years, and place and zone are the station's",
+          "[weather]") {
+    std::string text =
+        "723000,\"A STATION\",XX,-6.0,40.0,-90.0,200\r\n"
+        "Date (MM/DD/YYYY),Time (HH:MM),GHI (W/m^2),DHI (W/m^2),Dry-bulb (C),RHum (%),Pressure (mbar),Wspd "
+        "(m/s),Lprecip depth (mm)\r\n";
+    for (const char* date : {"01/31/1988", "02/01/1980"}) {
+        for (int hour = 1; hour <= 24; ++hour) {
+            text += fmt::format("{},{:02}:00,{},{},{},40,990,3,{}\r\n", date, hour, hour == 12 ? 500 : 0,
+                                hour == 12 ? 200 : 0, hour, hour == 7 ? "1.5" : "-9900");
+        }
+    }
+    FileOfWeather file("t.csv", text);
+    const Weather weather = file.weather("days = 0.0416666666666666667\nrain = 0\n");
+    CHECK(weather.of_step(12, 12, 1).radiation == Approx(500 * 3600e-6));
+    CHECK(weather.of_step(12, 12, 1).temperature == Approx(11.5));
+    CHECK(weather.of_step(36, 36, 1).radiation == Approx(500 * 3600e-6));
+    CHECK(weather.of_step(12, 12, 1).pressure == Approx(99));
+    CHECK_THAT(file.refusal(), Contains("t.csv:3:9") && Contains("a number 'rain' in the scene replaces the column"));
+    CHECK(weather.day() == 31);
+    CHECK(weather.place().latitude == 40);
+    CHECK(weather.place().longitude == -90);
+    CHECK(weather.place().zone == -6);
+}
+
+TEST_CASE("PVGIS: radiation is of a moment after the hour, and lines after the rows are no rows", "[weather]") {
+    std::string text =
+        "Latitude (decimal degrees): 45.0\r\nLongitude (decimal degrees): 8.0\r\nElevation (m): 100.0\r\n"
+        "Irradiance Time Offset (h): 0.25\r\n\r\n"
+        "time(UTC),T2m,RH,G(h),Gb(n),Gd(h),IR(h),WS10m,WD10m,SP\r\n";
+    for (int hour = 0; hour < 48; ++hour) {
+        text += fmt::format("200706{:02}:{:02}00,{},50,{},0,0,300,4,0,100000\r\n", 20 + hour / 24, hour % 24, hour % 24,
+                            hour % 24 == 12 ? 800 : 0);
+    }
+    FileOfWeather file("p.csv", text + "\r\nT2m: 2-m air temperature\r\n");
+    const Weather weather = file.weather("days = 0.25\n");
+    // A triangle of light from 11.25 to 13.25: two hours of half of its height.
+    CHECK(weather.of_step(2, 2, 1).radiation + weather.of_step(3, 3, 1).radiation == Approx(800 * 3600e-6));
+    CHECK(weather.of_step(3, 3, 1).radiation > weather.of_step(2, 2, 1).radiation);
+    CHECK(weather.of_step(1, 1, 1).pressure == Approx(100));
+    CHECK(weather.place().latitude == 45);
+    CHECK(weather.day() == 171);
+}
+
+TEST_CASE("NASA POWER: hours begin at their stamp, and radiation has the unit of the header", "[weather]") {
+    const auto text = [](const std::string& unit, double light) {
+        std::string all =
+            "-BEGIN HEADER-\nNASA/POWER Source Native Resolution Hourly Data\n"
+            "Location: latitude  10.5   longitude -20.25\nElevation from MERRA-2: Average = 33.0 meters\n"
+            "ALLSKY_SFC_SW_DWN     CERES SYN1deg All Sky Surface Shortwave Downward Irradiance (" +
+            unit + ")\n-END HEADER-\nYEAR,MO,DY,HR,T2M,RH2M,WS2M,PS,PRECTOTCORR,ALLSKY_SFC_SW_DWN\n";
+        for (int hour = 0; hour < 24; ++hour) {
+            all += fmt::format("2021,3,1,{},{},80,2,101,0.5,{}\n", hour, hour, hour == 12 ? light : 0.0);
+        }
+        return all;
+    };
+    for (const auto& [unit, light] : {std::pair{"Wh/m^2", 360.0}, std::pair{"MJ/hr", 1.296}}) {
+        FileOfWeather file("n.csv", text(unit, light));
+        const Weather weather = file.weather("days = 0.0416666666666666667\n");
+        CHECK(weather.of_step(13, 13, 1).radiation == Approx(360 * 3600e-6));
+        CHECK(weather.of_step(12, 12, 1).radiation == Approx(0).margin(1e-12));
+        CHECK(weather.of_step(13, 13, 1).rain == Approx(0.5));
+        CHECK(weather.place().latitude == 10.5);
+        CHECK(weather.place().longitude == -20.25);
+        CHECK(weather.day() == 60);
+    }
 }

@@ -284,6 +284,20 @@ void WeatherRows::refuse_hole(std::size_t row, AirQuantity quantity, const std::
     refuse(lines_[row], 0, fmt::format("'{}' is missing before this line{}", name_of(quantity), hint));
 }
 
+/// What to write where a station did not measure what a scene may give: rain, in most typical years.
+std::string instead_of_column(AirQuantity quantity) {
+    switch (quantity) {
+        case AirQuantity::temperature:
+        case AirQuantity::humidity:
+        case AirQuantity::wind:
+        case AirQuantity::pressure:
+        case AirQuantity::rain:
+            return fmt::format("; a number '{}' in the scene replaces the column", name_of(quantity));
+        default:
+            return "";
+    }
+}
+
 /// Fills from `begin` on, and returns where the next value is.
 std::size_t WeatherRows::fill_hole(std::vector<double>& values, const std::vector<double>& hours, std::size_t begin,
                                    AirQuantity quantity) const {
@@ -291,11 +305,15 @@ std::size_t WeatherRows::fill_hole(std::vector<double>& values, const std::vecto
     while (end < values.size() && std::isnan(values[end])) ++end;
     const bool is_inside = begin > 0 && end < values.size();
     const double span = is_inside ? hours[end] - hours[begin - 1] - usual_span(hours) : 0;
-    if (!reading_.fill_hours) refuse_hole(begin, quantity, ", or write fill = \"linear\"");
-    if (!is_inside) refuse_hole(begin, quantity, "; before the first and behind the last value nothing can be filled");
+    const std::string given = instead_of_column(quantity);
+    if (!reading_.fill_hours) refuse_hole(begin, quantity, ", or write fill = \"linear\"" + given);
+    if (!is_inside) {
+        refuse_hole(begin, quantity, "; before the first and after the last value nothing can be filled" + given);
+    }
     if (span > *reading_.fill_hours + 1e-9) {
-        refuse_hole(begin, quantity,
-                    fmt::format("; it is missing for {:g} hours, and fill_hours is {:g}", span, *reading_.fill_hours));
+        refuse_hole(
+            begin, quantity,
+            fmt::format("; it is missing for {:g} hours, and fill_hours is {:g}{}", span, *reading_.fill_hours, given));
     }
     const double before = values[begin - 1], step = hours[end] - hours[begin - 1];
     for (std::size_t i = begin; i < end; ++i) {
