@@ -1,5 +1,6 @@
 // A solute in soil: transport, sorption, decay, fertiliser and uptake by roots.
-// Millington & Quirk 1961; van Leer 1974; Barber 1995; Schroeder et al. 2008. The rest is in src/environment/soil/solutes/.
+// Millington & Quirk 1961; van Leer 1974; Barber 1995; Schroeder et al. 2008. The rest is in
+// src/environment/soil/solutes/.
 #include "espalier/environment/environment_process.h"
 
 #include "environment/soil/grid/direction.h"

@@ -389,7 +389,7 @@ lowest         none, degrees Celsius; at sunrise
 humidity       0.6; relative humidity, 0 to 1; with highest and lowest at the day's mean temperature
 wind           1 m/s; 2 m above the ground
 co2            400 umol/mol; carbon dioxide in the air
-rain           0 mm/d
+rain           0 mm/d; falling evenly, where no file says it
 radiation      none, MJ m-2 d-1; light of all wavelengths on level ground in a day, without a file
 pressure       101.325 kPa; or height, which gives it
 height         0 m; above the sea
