@@ -194,7 +194,7 @@ private:
             is_replaced = is_replaced || production.is_chosen;
             text += fmt::format("  {} {}: {}\n      {}\n", production.is_chosen ? "*" : "-",
                                 to_string(production.production->place), reason(production),
-                                trimmed(source_line(production.production->place)));
+                                trimmed(source_line(production.production->place), " \t"));
         }
         return is_replaced ? text : text + "  no production applies: it stays, or is decomposed\n";
     }

@@ -9,23 +9,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
 namespace espalier::app {
 namespace {
 
 constexpr const char* seed_name = "seed";
 
-std::string lower_case(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
 }  // namespace
 
 std::string option_name(const ModelSetting& setting) {
-    std::string name = lower_case(setting.name);
+    std::string name = in_small_letters(setting.name);
     std::replace(name.begin(), name.end(), '_', '-');
     return name;
 }

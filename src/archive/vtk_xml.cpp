@@ -4,6 +4,7 @@
 
 #include "base/base64.h"
 #include "base/number.h"
+#include "base/text.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
@@ -93,13 +94,6 @@ vtkSmartPointer<vtkDataCompressor> compressor_of(std::string_view name) {
     return compressor;
 }
 
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blanks = " \t\r\n";
-    const std::size_t begin = text.find_first_not_of(blanks);
-    if (begin == std::string_view::npos) return {};
-    return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
-
 }  // namespace
 
 VtkXmlFile::VtkXmlFile(const std::filesystem::path& path, const std::string& type)
@@ -155,7 +149,7 @@ VtkArray VtkXmlFile::array(const XmlElement& element) const {
     }
     const auto compressor = compressor_of(root_.attribute("compressor"));
     const bool binary = element.attribute("format") == "binary";
-    if (!binary || !CompressedBlocks(*compressor).read(trimmed(element.text), result.bytes)) {
+    if (!binary || !CompressedBlocks(*compressor).read(trimmed(element.text, " \t\r\n"), result.bytes)) {
         fail(fmt::format("the data of array '{}' are damaged", element.attribute("Name")));
     }
     return result;

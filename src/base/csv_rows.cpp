@@ -5,6 +5,7 @@
 #include "base/byte_order_mark.h"
 #include "base/csv_file.h"
 #include "base/number.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 
@@ -15,13 +16,6 @@
 
 namespace espalier {
 namespace {
-
-std::string without_blanks(const std::string& text) {
-    const char* const blanks = " \t\r";
-    const std::size_t begin = text.find_first_not_of(blanks);
-    if (begin == std::string::npos) return "";
-    return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
-}
 
 /// What is most in the line outside of quotes.
 char separator_of(const std::string& line) {
@@ -78,12 +72,12 @@ CsvRows::CsvRows(const std::filesystem::path& path, bool comments) : path_(path.
     std::istringstream text(without_mark(read_text(path), path_));
     std::string line;
     for (int number = 1; std::getline(text, line); ++number) {
-        if (without_blanks(line).empty() || (comments && line.front() == '#')) continue;
+        if (trimmed(line).empty() || (comments && line.front() == '#')) continue;
         if (rows_.empty()) separator_ = separator_of(line);
         CsvRow& row = rows_.emplace_back();
         row.line = number;
         row.has_decimal_commas = separator_ != ',';
-        for (const std::string& cell : csv_cells(line, separator_)) row.cells.push_back(without_blanks(cell));
+        for (const std::string& cell : csv_cells(line, separator_)) row.cells.emplace_back(trimmed(cell));
     }
 }
 

@@ -16,12 +16,6 @@ bool is_part_of_name(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.' || c == '-';
 }
 
-std::string_view trimmed(std::string_view text) {
-    const std::size_t begin = text.find_first_not_of(' ');
-    if (begin == std::string_view::npos) return {};
-    return text.substr(begin, text.find_last_not_of(' ') - begin + 1);
-}
-
 // Where one of the characters stands outside quotes and brackets; npos if nowhere.
 std::size_t find_outside(std::string_view text, std::string_view characters, std::size_t from = 0) {
     int depth = 0;

@@ -66,6 +66,17 @@ std::string format_exact(double value) {
     return fmt::format("{}", value);
 }
 
+std::string_view trimmed(std::string_view text, std::string_view blanks) {
+    text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+    return text.substr(0, text.find_last_not_of(blanks) + 1);
+}
+
+std::string in_small_letters(std::string_view text) {
+    std::string small(text);
+    for (char& c : small) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return small;
+}
+
 std::vector<std::string> words_of(std::string_view text, std::string_view separators) {
     std::vector<std::string> words;
     std::size_t begin = text.find_first_not_of(separators);

@@ -26,6 +26,12 @@ std::size_t shown_length(std::string_view text, std::size_t i);
 /// The same text to be shown: control characters other than newline and tab, and bytes that are no UTF-8, as `\x1b`.
 std::string escaped(std::string_view text);
 
+/// Without the blanks at both ends.
+std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r");
+
+/// A to Z as small letters; all other bytes stay.
+std::string in_small_letters(std::string_view text);
+
 /// The words between any of the separators; none of them is empty.
 std::vector<std::string> words_of(std::string_view text, std::string_view separators);
 

@@ -2,6 +2,7 @@
 
 #include "base/characters.h"
 #include "base/number.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 
@@ -9,13 +10,6 @@
 
 namespace espalier {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blanks = " \t\r";
-    text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
-    while (!text.empty() && blanks.find(text.back()) != std::string_view::npos) text.remove_suffix(1);
-    return text;
-}
 
 /// "0.1" of "0.1 m", "5 %" or "10cm/h"; empty if the text is no number with a unit.
 std::string_view number_before_unit(std::string_view text) {

@@ -2,11 +2,12 @@
 
 #include "espalier/base/error.h"
 
+#include "base/text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 namespace espalier::language::measured {
 
@@ -45,8 +46,7 @@ std::optional<double> metres_of(std::string_view unit) {
                                                          {"inch", 0.0254},
                                                          {"inches", 0.0254},
                                                          {"in", 0.0254}}};
-    std::string small(unit);
-    for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string small = in_small_letters(unit);
     const auto* const found =
         std::find_if(spellings.begin(), spellings.end(), [&](const Spelling& each) { return each.word == small; });
     return found == spellings.end() ? std::nullopt : std::optional(found->metres);

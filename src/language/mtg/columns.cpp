@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -48,12 +47,6 @@ constexpr std::array<KnownColumn, 24> known_columns{{{"xx", x},
                                                      {"len", length},
                                                      {"birth", day},
                                                      {"date", day}}};
-
-std::string in_small_letters(std::string_view text) {
-    std::string small(text);
-    for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return small;
-}
 
 }  // namespace
 

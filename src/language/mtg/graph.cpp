@@ -27,8 +27,7 @@ std::string section_of(std::string_view line) {
     if (colon == std::string_view::npos) return "";
     const std::vector<std::string> words = words_of(line.substr(0, colon), " \t");
     if (words.size() != 1) return "";
-    std::string name = words[0];
-    for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string name = in_small_letters(words[0]);
     for (const char* const section : {"code", "classes", "description", "features", "mtg"}) {
         if (name == section) return name;
     }
@@ -136,8 +135,7 @@ private:
 
     void read_header() {
         is_header_ = false;
-        std::string first(cells_[0]);
-        for (char& c : first) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        const std::string first = in_small_letters(cells_[0]);
         if (first != "entity-code" && first != "topo") fail(1, "the line below MTG: begins with ENTITY-CODE");
         std::size_t begin = 1;
         while (begin < cells_.size() && cells_[begin].empty()) ++begin;

@@ -160,7 +160,7 @@ std::vector<ComponentType> make_types() {
     return types;
 }
 
-std::string trimmed(const std::string& text) {
+std::string single_spaced(const std::string& text) {
     std::string result;
     for (const std::string& part : words_of(text, " \t\r")) result += (result.empty() ? "" : " ") + part;
     return result;
@@ -179,7 +179,7 @@ std::vector<std::string> split(const std::string& text, const std::string& separ
             parts.back() += text[k++];
         }
     }
-    for (std::string& part : parts) part = trimmed(part);
+    for (std::string& part : parts) part = single_spaced(part);
     return parts;
 }
 
@@ -211,7 +211,7 @@ bool is_listed(KeyKind kind) {
 }
 
 bool read_value(const std::string& written, KeyKind kind, Value& value) {
-    const std::string text = trimmed(written);
+    const std::string text = single_spaced(written);
     if (kind == word || kind == literal || is_listed(kind)) {
         value.parts = split(text, ",");
         return !has_empty(value.parts) && (is_listed(kind) || value.parts.size() == 1);

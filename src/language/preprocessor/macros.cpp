@@ -1,6 +1,7 @@
 #include "language/preprocessor/macros.h"
 
 #include "base/characters.h"
+#include "base/text.h"
 #include "language/preprocessor/comments.h"
 
 #include <fmt/format.h>
@@ -52,10 +53,8 @@ constexpr std::size_t most_expansions = 1'000'000;
 
 }  // namespace
 
-std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && (is_blank(text.front()) || text.front() == '\n')) text.remove_prefix(1);
-    while (!text.empty() && (is_blank(text.back()) || text.back() == '\n')) text.remove_suffix(1);
-    return text;
+std::string_view stripped(std::string_view text) {
+    return trimmed(text, " \t\f\v\r\n");
 }
 
 std::size_t end_of_token(std::string_view text, std::size_t start) {
@@ -95,7 +94,7 @@ void Macros::require_value(std::string_view name, const Macro& macro) {
     const std::string_view body = macro.body;
     if (macro.function_like || body.size() < 2 || body[0] != '=' || body[1] == '=') return;
     throw SyntaxError{macro.defined, fmt::format("'{0}' stands for '{1}' here: write '#define {0} {2}', without '='",
-                                                 name, body, trimmed(body.substr(1)))};
+                                                 name, body, stripped(body.substr(1)))};
 }
 
 void Macros::limit(std::size_t size) {
@@ -206,7 +205,7 @@ std::optional<std::vector<std::string>> Macros::arguments(std::string_view name,
         }
         const bool closes = text[i] == ')' && depth == 0;
         if (closes || (text[i] == ',' && depth == 0)) {
-            found.emplace_back(trimmed(text.substr(start, i - start)));
+            found.emplace_back(stripped(text.substr(start, i - start)));
             start = i + 1;
         }
         if (closes) break;

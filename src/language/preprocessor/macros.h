@@ -63,6 +63,7 @@ void append_apart(std::string& text, std::string_view piece);
 bool grow_together(char left, char right);
 /// The end of the name, number or literal that begins at `start`, or start + 1.
 std::size_t end_of_token(std::string_view text, std::size_t start);
-std::string_view trimmed(std::string_view text);
+/// Without the blanks and line breaks at both ends.
+std::string_view stripped(std::string_view text);
 
 }  // namespace espalier::language

@@ -48,7 +48,7 @@ public:
 private:
     void define_from_outside(const std::string& name, const std::string& text, bool overridden) {
         Macro macro;
-        macro.body = trimmed(text);
+        macro.body = stripped(text);
         macro.overridden = overridden;
         macros_.define(name, std::move(macro));
     }
@@ -172,7 +172,7 @@ private:
                 if (word == "define") define(rest);
                 if (word == "undef") macros_.undefine(std::string(required_name(rest, "undef")));
                 if (word == "include") include(rest, folder);
-                if (word == "error") throw SyntaxError{at_, fmt::format("#error {}", trimmed(rest))};
+                if (word == "error") throw SyntaxError{at_, fmt::format("#error {}", stripped(rest))};
             }
         } catch (const SyntaxError& mistake) {
             mistakes_.error(mistake);
@@ -265,7 +265,7 @@ private:
             macro.function_like = true;
             macro.parameters = parameters(name, rest, i);
         }
-        macro.body = trimmed(rest.substr(i));
+        macro.body = stripped(rest.substr(i));
         if (!macro.function_like) document(name);
         const Macro* before = macros_.find(name);
         if (before && before->overridden) {
@@ -320,7 +320,7 @@ private:
     }
 
     void include(std::string_view rest, const std::filesystem::path& folder) {
-        const std::string_view argument = trimmed(rest);
+        const std::string_view argument = stripped(rest);
         const char close = argument.starts_with('"') ? '"' : argument.starts_with('<') ? '>' : '\0';
         if (!close || argument.size() < 3 || argument.back() != close) {
             throw SyntaxError{at_, "#include needs a file name: #include \"file\""};

@@ -15,23 +15,23 @@ constexpr std::string_view dashes = "---";
 std::string_view comment_of(std::string_view line) {
     const std::size_t block = line.find("/*"), rest = line.find("//");
     if (block == line.npos && rest == line.npos) return {};
-    if (rest < block) return trimmed(line.substr(rest + 2));
+    if (rest < block) return stripped(line.substr(rest + 2));
     const std::string_view inside = line.substr(block + 2);
-    return trimmed(inside.substr(0, inside.find("*/")));
+    return stripped(inside.substr(0, inside.find("*/")));
 }
 
 std::vector<std::string_view> parts_of(std::string_view comment) {
     std::vector<std::string_view> parts;
     for (std::size_t end; (end = comment.find(';')) != comment.npos; comment.remove_prefix(end + 1)) {
-        parts.push_back(trimmed(comment.substr(0, end)));
+        parts.push_back(stripped(comment.substr(0, end)));
     }
-    parts.push_back(trimmed(comment));
+    parts.push_back(stripped(comment));
     return parts;
 }
 
 /// An end of a range that is left out stays as it is; false if something else than a number stands there.
 bool read_end(std::string_view text, double& end) {
-    text = trimmed(text);
+    text = stripped(text);
     if (text.empty()) return true;
     const std::optional<double> number = finite_number(text);
     end = number.value_or(end);
@@ -42,7 +42,7 @@ bool read_end(std::string_view text, double& end) {
 bool read_range(std::string_view text, SettingComment& comment) {
     constexpr std::string_view whole = " whole";
     comment.whole = text.ends_with(whole);
-    if (comment.whole) text = trimmed(text.substr(0, text.size() - whole.size()));
+    if (comment.whole) text = stripped(text.substr(0, text.size() - whole.size()));
     const std::size_t dots = text.find("..");
     return dots != text.npos && text.size() > 2 && read_end(text.substr(0, dots), comment.lowest) &&
            read_end(text.substr(dots + 2), comment.highest);
@@ -60,7 +60,7 @@ std::optional<SettingComment> setting_comment(std::string_view line) {
         const std::string_view range = parts[parts.size() - 1 - behind];
         if (!read_range(range, result = {})) continue;
         const auto length = static_cast<std::size_t>(range.data() - comment.data());
-        result.summary = trimmed(comment.substr(0, comment.rfind(';', length)));
+        result.summary = stripped(comment.substr(0, comment.rfind(';', length)));
         if (behind == 1) result.unit = parts.back();
         return result;
     }
@@ -68,11 +68,11 @@ std::optional<SettingComment> setting_comment(std::string_view line) {
 }
 
 std::string_view heading_of(std::string_view line) {
-    line = trimmed(line);
+    line = stripped(line);
     if (!line.starts_with("/*") && !line.starts_with("//")) return {};
     const std::string_view comment = comment_of(line);
     const bool framed = comment.size() > 2 * dashes.size() && comment.starts_with(dashes) && comment.ends_with(dashes);
-    return framed ? trimmed(comment.substr(dashes.size(), comment.size() - 2 * dashes.size())) : std::string_view();
+    return framed ? stripped(comment.substr(dashes.size(), comment.size() - 2 * dashes.size())) : std::string_view();
 }
 
 }  // namespace espalier::language

@@ -17,11 +17,6 @@ constexpr std::size_t most_orders = 60;
 constexpr double largest_number = 1e12;
 constexpr std::string_view blanks = " \t\r\n";
 
-std::string_view trimmed(std::string_view text) {
-    const std::size_t begin = text.find_first_not_of(blanks);
-    return begin == std::string_view::npos ? "" : text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
-}
-
 class RawReader final : public XmlReader {
 public:
     RawReader(const std::string& name, measured::Notes& notes) : XmlReader(name), notes_(notes) {}
@@ -37,14 +32,14 @@ private:
     // -- numbers
 
     double number(std::string_view text, const std::string& what) const {
-        const std::optional<double> value = finite_number(trimmed(text));
+        const std::optional<double> value = finite_number(trimmed(text, blanks));
         if (!value || std::abs(*value) > largest_number) fail(fmt::format("{} is a number, not '{}'", what, text));
         return *value;
     }
 
     /// A value that was not measured is NaN.
     double measured_number(std::string_view text, const std::string& what) const {
-        const std::string word = plain_name(trimmed(text));
+        const std::string word = plain_name(trimmed(text, blanks));
         if (word.empty() || word == "nan" || word == "na" || word == "null") {
             return std::numeric_limits<double>::quiet_NaN();
         }
@@ -100,22 +95,22 @@ private:
         open_.pop_back();
         switch (scope) {
             case Scope::unit:
-                file_.unit = trimmed(text());
+                file_.unit = trimmed(text(), blanks);
                 break;
             case Scope::up:
-                file_.up = plain_name(trimmed(text()));
+                file_.up = plain_name(trimmed(text(), blanks));
                 break;
             case Scope::software:
-                file_.software = trimmed(text());
+                file_.software = trimmed(text(), blanks);
                 break;
             case Scope::resolution:
                 end_resolution();
                 break;
             case Scope::defined_name:
-                defined_name_ = plain_name(trimmed(text()));
+                defined_name_ = plain_name(trimmed(text(), blanks));
                 break;
             case Scope::defined_unit:
-                file_.defined_unit[defined_name_] = trimmed(text());
+                file_.defined_unit[defined_name_] = trimmed(text(), blanks);
                 break;
             case Scope::plant:
                 plant_.reset();
@@ -147,7 +142,7 @@ private:
     }
 
     void end_resolution() {
-        if (trimmed(text()).empty()) return;
+        if (trimmed(text(), blanks).empty()) return;
         const double resolution = number(text(), "the resolution");
         if (resolution > 0) {
             file_.resolution = resolution;

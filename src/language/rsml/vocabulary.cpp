@@ -1,8 +1,9 @@
 #include "language/rsml/vocabulary.h"
 
+#include "base/text.h"
+
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 namespace espalier::language::rsml {
 namespace {
@@ -93,17 +94,11 @@ constexpr std::array time_rows{
     TimeRow{"s", 1. / 86400},  TimeRow{"second", 1. / 86400},
 };
 
-std::string small_letters(std::string_view text) {
-    std::string small(text);
-    for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return small;
-}
-
 }  // namespace
 
 std::string plain_name(std::string_view name) {
     const std::size_t colon = name.rfind(':');
-    return small_letters(colon == std::string_view::npos ? name : name.substr(colon + 1));
+    return in_small_letters(colon == std::string_view::npos ? name : name.substr(colon + 1));
 }
 
 std::optional<Scope> scope_of(Scope around, std::string_view element) {
@@ -123,7 +118,7 @@ std::optional<Term> term_of(std::string_view name) {
 }
 
 std::string upwards_of(std::string_view software) {
-    const std::string small = small_letters(software);
+    const std::string small = in_small_letters(software);
     for (const UpwardsRow& row : upwards_rows) {
         if (small.find(row.software) != std::string::npos) return std::string(row.up);
     }
@@ -131,7 +126,7 @@ std::string upwards_of(std::string_view software) {
 }
 
 std::optional<double> days_of(std::string_view unit) {
-    const std::string small = small_letters(unit);
+    const std::string small = in_small_letters(unit);
     for (const TimeRow& row : time_rows) {
         if (row.unit == small) return row.days;
     }
@@ -139,7 +134,7 @@ std::optional<double> days_of(std::string_view unit) {
 }
 
 bool is_pixel(std::string_view unit) {
-    const std::string small = small_letters(unit);
+    const std::string small = in_small_letters(unit);
     return small == "pixel" || small == "pixels" || small == "px";
 }
 

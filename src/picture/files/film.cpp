@@ -5,6 +5,7 @@
 #include "espalier/picture/render.h"
 
 #include "base/platform.h"
+#include "base/text.h"
 #include "picture/files/listening.h"
 
 #include <fmt/format.h>
@@ -13,7 +14,6 @@
 #include <vtkOggTheoraWriter.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -174,9 +174,7 @@ private:
 }  // namespace
 
 std::string kind_of_file(const fs::path& path) {
-    std::string kind = path.extension().string();
-    std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
-    return kind;
+    return in_small_letters(path.extension().string());
 }
 
 void require_film_writer(const fs::path& path) {

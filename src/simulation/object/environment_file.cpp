@@ -60,7 +60,7 @@ public:
 
     Lines read(const fs::path& path) {
         for (const PlainLine& line : plain_lines(read_text(path), path.string())) {
-            if (!trimmed(line.text).empty()) read_line(line);
+            if (!trimmed(line.text, " \t").empty()) read_line(line);
         }
         if (lines_.command.empty()) {
             throw UserError({path.string(), 0, 0}, "no process answers: there is no line 'executable: PROGRAM'");
@@ -73,7 +73,7 @@ private:
         const std::size_t end = std::min(line.text.find_first_of("\t:"), line.text.size());
         const std::string keyword = line.text.substr(0, end);
         const std::string value = end < line.text.size() ? line.text.substr(end + 1) : "";
-        const std::string word = trimmed(value);
+        const std::string word(trimmed(value, " \t"));
         if (keyword == "executable") {
             lines_.command = words_of(value, " \t");
             lines_.command_place = line.place;
@@ -263,14 +263,14 @@ private:
         for (const PlainLine& line : plain_lines(read_text(list), list.string())) {
             const std::size_t end = std::min(line.text.find_first_of("\t:"), line.text.size());
             const std::string keyword = line.text.substr(0, end);
-            if (keyword == "verbose" || trimmed(line.text).empty()) continue;
+            if (keyword == "verbose" || trimmed(line.text, " \t").empty()) continue;
             if (keyword != "field communication file") {
                 result_.diagnostics.push_back({Diagnostic::Severity::error, line.place,
                                                fmt::format("'{}' means nothing to process 'multiple'", keyword),
                                                line.text});
                 continue;
             }
-            read_field(trimmed(line.text.substr(std::min(end + 1, line.text.size()))), line, list);
+            read_field(std::string(trimmed(line.text.substr(std::min(end + 1, line.text.size())), " \t")), line, list);
         }
         if (result_.processes.empty()) {
             throw UserError({list.string(), 0, 0}, "no process: there is no line 'field communication file: FILE'");

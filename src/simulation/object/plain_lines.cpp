@@ -16,12 +16,6 @@ std::vector<PlainLine> plain_lines(std::string_view text, const std::string& nam
     return lines;
 }
 
-std::string trimmed(std::string_view text) {
-    const std::size_t begin = text.find_first_not_of(" \t");
-    if (begin == std::string_view::npos) return "";
-    return std::string(text.substr(begin, text.find_last_not_of(" \t") + 1 - begin));
-}
-
 std::optional<int> leading_integer(std::string_view word) {
     constexpr int most = 1000000000;
     const bool negative = word.starts_with('-');

@@ -18,9 +18,6 @@ struct PlainLine {
 /// `name` is the file's, for the places.
 std::vector<PlainLine> plain_lines(std::string_view text, const std::string& name);
 
-/// The text without blanks and tabs around it.
-std::string trimmed(std::string_view text);
-
 /// The number a word begins with, as atoi() reads it, within a thousand millions; nothing if it begins with none.
 std::optional<int> leading_integer(std::string_view word);
 

@@ -2,12 +2,12 @@
 
 #include "espalier/base/file.h"
 
+#include "base/text.h"
 #include "simulation/object/plain_lines.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 
 namespace espalier::simulation {
@@ -15,10 +15,9 @@ namespace {
 
 // `rmode: word`, `refresh mode: word`, `refreshMode: word` and the like.
 bool sets_refresh_mode(const std::string& line) {
-    std::string keyword = line.substr(0, line.find(':'));
+    std::string keyword = in_small_letters(line.substr(0, line.find(':')));
     if (keyword.size() == line.size()) return false;
     std::erase(keyword, ' ');
-    std::transform(keyword.begin(), keyword.end(), keyword.begin(), [](unsigned char c) { return std::tolower(c); });
     return keyword == "rmode" || keyword == "refreshmode";
 }
 
@@ -59,7 +58,7 @@ Specifications read_specifications(const std::filesystem::path& path) {
     std::set<std::string> names;
     bool in_menu = false, keeps = true;
     for (const PlainLine& line : plain_lines(read_text(path), path.string())) {
-        const std::string text = trimmed(line.text);
+        const std::string text(trimmed(line.text, " \t"));
         if (text.empty() || text.starts_with(';')) continue;
         if (in_menu) {
             std::vector<std::string> words = shell_words(text);

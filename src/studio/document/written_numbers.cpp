@@ -5,6 +5,7 @@
 #include "espalier/language/notation.h"
 
 #include "base/number.h"
+#include "base/text.h"
 #include "studio/document/scene_words.h"
 #include "studio/document/species_numbers.h"
 
@@ -57,11 +58,6 @@ std::size_t behind_word(const std::string& text, const std::string& word, std::s
     return std::string::npos;
 }
 
-std::string without_blanks(const std::string& text) {
-    const std::size_t begin = text.find_first_not_of(" \t"), end = text.find_last_not_of(" \t");
-    return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
-}
-
 // Finds the value that its line writes behind its name, in whatever notation; none if it is not written there as it is.
 std::optional<std::size_t> place_of_value(const ModelSetting& setting, const std::string& value,
                                           const std::string& text, const Lines& lines) {
@@ -108,7 +104,7 @@ std::vector<WrittenNumber> numbers_of_model(const fs::path& file, const std::str
     const ModelSettings settings = ModelSettings::parse(text, file.string(), file.parent_path());
     for (const ModelSetting& setting : settings.list()) {
         if (fs::path(setting.place.file).lexically_normal() != name) continue;
-        const std::string value = without_blanks(setting.text);
+        const std::string value(trimmed(setting.text, " \t"));
         const std::optional<std::size_t> place = place_of_value(setting, value, text, lines);
         if (!place) continue;
         numbers.push_back({.name = setting.name,

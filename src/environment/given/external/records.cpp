@@ -4,6 +4,7 @@
 
 #include "base/excerpt.h"
 #include "base/number.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 
@@ -32,13 +33,6 @@ std::string module_text(std::string_view name, std::span<const double> parameter
 std::string_view name_of(const Query& query, const WorldView& world) {
     if (query.process < 0) return "E";
     return world.plants[query.plant].model->processes[static_cast<std::size_t>(query.process)];
-}
-
-std::string_view trimmed(std::string_view text) {
-    const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-    while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-    while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-    return text;
 }
 
 [[noreturn]] void fail_at(std::string_view line, const std::string& why) {

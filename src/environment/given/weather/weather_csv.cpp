@@ -110,25 +110,13 @@ std::string plain_unit(std::string unit) {
     return unit;
 }
 
-std::string trimmed(std::string text) {
-    const char* const blanks = " \t\r";
-    text.erase(0, std::min(text.find_first_not_of(blanks), text.size()));
-    text.erase(text.find_last_not_of(blanks) + 1);
-    return text;
-}
-
-std::string in_small_letters(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    return text;
-}
-
 /// "global (W m-2)" or "Global [W m-2]" as name, in small letters, and unit.
 std::pair<std::string, std::string> name_and_unit(const std::string& cell) {
     const std::size_t open = cell.find_first_of("(["), close = cell.find_last_of(")]");
     if (open == std::string::npos || close == std::string::npos || close < open)
         return {in_small_letters(trimmed(cell)), ""};
-    return {in_small_letters(trimmed(cell.substr(0, open))), trimmed(cell.substr(open + 1, close - open - 1))};
+    return {in_small_letters(trimmed(cell.substr(0, open))),
+            std::string(trimmed(cell.substr(open + 1, close - open - 1)))};
 }
 
 /// The whole number of so many digits at a place of the text.

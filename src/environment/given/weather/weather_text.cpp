@@ -5,6 +5,7 @@
 #include "base/byte_order_mark.h"
 #include "base/csv_file.h"
 #include "base/number.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 
@@ -13,12 +14,6 @@
 
 namespace espalier::environment {
 namespace {
-
-std::string without_blanks_around(const std::string& text) {
-    const std::size_t begin = text.find_first_not_of(" \t\r");
-    if (begin == std::string::npos) return "";
-    return text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin);
-}
 
 bool is_code(double value, double missing) {
     return missing > 0 ? value >= missing : value <= missing;
@@ -40,15 +35,15 @@ std::vector<TextLine> weather_lines(const std::filesystem::path& path) {
     std::vector<TextLine> lines;
     std::string line;
     for (int number = 1; std::getline(stream, line); ++number) {
-        line = without_blanks_around(line);
-        if (!line.empty()) lines.push_back({number, line});
+        const std::string_view words = trimmed(line);
+        if (!words.empty()) lines.push_back({number, std::string(words)});
     }
     return lines;
 }
 
 std::vector<std::string> weather_cells(const std::string& text) {
     std::vector<std::string> cells = csv_cells(text);
-    for (std::string& cell : cells) cell = without_blanks_around(cell);
+    for (std::string& cell : cells) cell = std::string(trimmed(cell));
     return cells;
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/picture_bytes.h"
 #include "base/platform.h"
+#include "base/text.h"
 #include "environment/space/shapes/mesh_formats.h"
 #include "geometry/polygon_triangles.h"
 #include "geometry/side_files/obj_mesh.h"
@@ -23,13 +24,6 @@
 
 namespace espalier::environment {
 namespace {
-
-std::string lower_case_extension(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
 
 void require_file(const std::filesystem::path& file, const Place& place) {
     std::error_code error;
@@ -51,7 +45,7 @@ PolygonMesh read_obj(const std::filesystem::path& file) {
 }
 
 PolygonMesh read_polygons(const std::filesystem::path& file, const Place& place) {
-    const std::string extension = lower_case_extension(file);
+    const std::string extension = in_small_letters(file.extension().string());
     if (extension == ".obj") return read_obj(file);
     const auto parse = extension == ".ply" ? parse_ply : extension == ".stl" ? parse_stl : nullptr;
     if (!parse) {
@@ -340,7 +334,7 @@ HeightImage heights_of(const Picture& picture) {
 
 HeightImage read_height_image(const std::filesystem::path& file, const Place& place) {
     require_file(file, place);
-    const std::string extension = lower_case_extension(file);
+    const std::string extension = in_small_letters(file.extension().string());
     const PictureBytes bytes(file);
     if (extension == ".png" || bytes.begins_with("\x89PNG")) return heights_of(read_png(bytes));  // with all 16 bits
     if (extension == ".rgb" || extension == ".tga") return heights_of(read_picture(file));
