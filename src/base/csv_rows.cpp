@@ -26,19 +26,10 @@ char separator_of(const std::string& line) {
     return best;
 }
 
-std::string without_mark(std::string text, const std::string& path) {
-    text.erase(0, byte_order_mark(text));
-    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-        throw UserError({path, 1, 0}, "this file is UTF-16: save it as CSV in UTF-8");
-    }
-    return text;
-}
-
 bool is_word_of_missing(std::string word) {
     static constexpr std::array<std::string_view, 11> words{"",    "-",    ".",    "na",      "n/a",   "#n/a",
                                                             "nan", "null", "none", "missing", "nodata"};
-    std::transform(word.begin(), word.end(), word.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    word = in_small_letters(word);
     return std::find(words.begin(), words.end(), word) != words.end();
 }
 
@@ -68,10 +59,21 @@ std::string CsvRow::words_of_missing(std::size_t column) const {
                        cell.find_first_of(".,") == std::string::npos ? ".01" : "1");
 }
 
-CsvRows::CsvRows(const std::filesystem::path& path, bool comments) : path_(path.string()) {
-    std::istringstream text(without_mark(read_text(path), path_));
+std::string table_text(const std::filesystem::path& path) {
+    std::string text = read_text(path);
+    text.erase(0, byte_order_mark(text));
+    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
+        throw UserError({path.string(), 1, 0}, "this file is UTF-16: save it as CSV in UTF-8");
+    }
+    return text;
+}
+
+CsvRows::CsvRows(const std::filesystem::path& path, bool comments) : CsvRows(path, table_text(path), comments) {}
+
+CsvRows::CsvRows(const std::filesystem::path& path, const std::string& text, bool comments) : path_(path.string()) {
+    std::istringstream lines(text);
     std::string line;
-    for (int number = 1; std::getline(text, line); ++number) {
+    for (int number = 1; std::getline(lines, line); ++number) {
         if (trimmed(line).empty() || (comments && line.front() == '#')) continue;
         if (rows_.empty()) separator_ = separator_of(line);
         CsvRow& row = rows_.emplace_back();

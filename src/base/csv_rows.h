@@ -26,12 +26,17 @@ struct CsvRow {
     bool has_decimal_commas = false;
 };
 
+/// The text of a table without its byte-order mark. Throws UserError for a file that cannot be read, or is UTF-16.
+std::string table_text(const std::filesystem::path& path);
+
 class CsvRows {
 public:
     /// Leaves out empty lines and, if `comments`, those that begin with #. Cells are separated by commas, semicolons or
     /// tabs, whichever are most in the first row; a byte-order mark is passed over. Throws UserError for a file that
     /// cannot be read.
     CsvRows(const std::filesystem::path& path, bool comments);
+    /// The same of a text that was read already, by `table_text`.
+    CsvRows(const std::filesystem::path& path, const std::string& text, bool comments);
 
     const std::vector<CsvRow>& rows() const { return rows_; }
     /// "commas", "semicolons" or "tabs".

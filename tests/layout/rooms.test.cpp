@@ -69,7 +69,7 @@ const std::map<std::string, std::vector<Room>> stations{
          {"exchange", ""},
          {"leaf/gas", ""},
          {"light/sun", ""},
-         {"given/weather", "leaf/gas light/sun"},
+         {"given/weather", "exchange leaf/gas light/sun"},
          {"given/external", "exchange"},
          {"given", "exchange leaf/gas given/external given/weather"},
          {"leaf", "exchange leaf/gas given/weather"},

@@ -3,12 +3,10 @@
 
 #include "espalier/environment/environment_process.h"
 
-#include "environment/exchange/changing_settings.h"
+#include "base/bytes.h"
 #include "environment/leaf/gas/air.h"
 
 #include <algorithm>
-#include <istream>
-#include <ostream>
 
 namespace espalier::environment {
 namespace {
@@ -36,11 +34,7 @@ public:
         }
     }
 
-    std::vector<ChangingSetting> changing_settings() override {
-        std::vector<ChangingSetting> all;
-        for (const Weather::Setting& one : weather_.numbers()) all.push_back(changing(one.key, one.range, *one.value));
-        return all;
-    }
+    std::vector<ChangingSetting> changing_settings() override { return weather_.changing_settings(); }
 
     std::vector<Quantity> statistics(std::uint32_t) const override {
         const AirOfStep& air = weather_.now();
@@ -66,10 +60,12 @@ public:
     Spreading spreading() const override { return Spreading::queries; }
 
     void save(std::ostream& out) const override {
-        for (const double sum : {thermal_, rain_}) out.write(reinterpret_cast<const char*>(&sum), sizeof sum);
+        put(out, thermal_);
+        put(out, rain_);
     }
     void restore(std::istream& in) override {
-        for (double* sum : {&thermal_, &rain_}) in.read(reinterpret_cast<char*>(sum), sizeof *sum);
+        thermal_ = get<double>(in);
+        rain_ = get<double>(in);
     }
 
 private:

@@ -67,7 +67,7 @@ public:
           light_(settings.text("light")),
           light_place_(settings.place("light")),
           kind_(read_leaf_kind(settings)),
-          weather_(read_air(settings, fields)),
+          weather_(Weather::named_by(settings, "air", fields)),
           air_(SceneAir::read(settings)),
           near_infrared_(settings.number_or("nir", 0.25, Range::between(0, 10))),
           potential_(settings.number_or("potential", 0, Range::between(-20, 0))),
@@ -162,11 +162,6 @@ public:
     Spreading spreading() const override { return Spreading::plants; }
 
 private:
-    static std::shared_ptr<const Weather> read_air(const Settings& settings, const Fields& fields) {
-        if (!settings.has("air")) return nullptr;
-        return Weather::named(settings.text("air"), fields, settings.place("air"));
-    }
-
     /// What the scene says of these leaves themselves stays.
     void take_weather() {
         if (!weather_) return;

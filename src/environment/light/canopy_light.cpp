@@ -47,7 +47,7 @@ public:
     CanopyLight(Settings& settings, const EnvironmentContext& context, Fields& fields)
         : name_(context.name),
           memory_(context.memory),
-          weather_(weather_of_sky(settings.table("sky"), fields)),
+          weather_(Weather::named_by(settings.table("sky"), "weather", fields)),
           sky_(settings.table("sky"), least_rise, weather_, context.warnings),
           optics_(settings),
           organs_(settings, optics_.bands(), context.plants),

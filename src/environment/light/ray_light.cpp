@@ -48,7 +48,7 @@ std::optional<DaylightSeries> read_daylight(const Settings& settings, const std:
 }
 
 std::shared_ptr<const Weather> read_weather(const Settings& settings, const Fields& fields) {
-    return settings.has("sky") ? weather_of_sky(settings.table("sky"), fields) : nullptr;
+    return settings.has("sky") ? Weather::named_by(settings.table("sky"), "weather", fields) : nullptr;
 }
 
 /// Level, along the axes, in square cells: such a sensor is a field.

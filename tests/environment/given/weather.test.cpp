@@ -178,3 +178,11 @@ TEST_CASE("NASA POWER: hours begin at their stamp, and radiation has the unit of
         CHECK(weather.day() == 60);
     }
 }
+
+TEST_CASE("missing rows of several gaps are filled on lines between their neighbours", "[weather]") {
+    FileOfWeather file("w.csv", "time (h),temperature (degC)\n0,0\n1,1\n2,2\n5,5\n6,6\n7,7\n9,9\n10,NA\n11,11\n");
+    CHECK_THAT(file.refusal("fill = \"linear\"\nfill_hours = 1\n"), Contains("w.csv:5") && Contains("3 hours since"));
+    CHECK_THAT(file.refusal(), Contains("fill = \"linear\" and fill_hours = 2"));
+    const Weather weather = file.weather("fill = \"linear\"\ndays = 0.0416666666666666667\n");
+    for (int hour = 1; hour <= 11; ++hour) CHECK(weather.of_step(hour, hour, 1).temperature == Approx(hour - 0.5));
+}

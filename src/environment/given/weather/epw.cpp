@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace espalier::environment {
 namespace {
@@ -28,7 +27,7 @@ double number_of_head(const std::vector<std::string>& cells, std::size_t i, cons
 
 }  // namespace
 
-WeatherTable read_epw(const std::filesystem::path& path, const WeatherReading& reading) {
+WeatherTable read_epw(const std::filesystem::path& path, TextLines lines, const WeatherReading& reading) {
     WeatherRows rows(path.string(), reading);
     rows.set_time(RowTime::span_ends, true);
     rows.set_rain_amounts();
@@ -36,7 +35,7 @@ WeatherTable read_epw(const std::filesystem::path& path, const WeatherReading& r
     GroundPlace place;
     double height = 0, records = 1;
     bool has_begun = false;
-    for (const TextLine& line : weather_lines(path)) {
+    for (const TextLine& line : lines) {
         const std::vector<std::string> cells = weather_cells(line.text);
         if (cells[0] == "LOCATION") {
             const auto number = [&](std::size_t i) { return number_of_head(cells, i, rows, line.number); };
@@ -55,11 +54,11 @@ WeatherTable read_epw(const std::filesystem::path& path, const WeatherReading& r
         }
         std::array<int, 5> date{};  // year, month, day, hour, minute
         for (std::size_t i = 0; i < date.size(); ++i) {
-            const std::optional<double> number = weather_number(cells[i]);
-            if (!number || std::abs(*number) > 9999 || *number != std::floor(*number)) {
+            const std::optional<int> number = part_of_date(cells[i]);
+            if (!number) {
                 rows.refuse(line.number, static_cast<int>(i + 1), fmt::format("'{}' is no part of a date", cells[i]));
             }
-            date[i] = static_cast<int>(*number);
+            date[i] = *number;
         }
         const double part = records > 1 && date[4] > 0 ? date[4] / 60.0 : 1;
         rows.begin(calendar.hours(rows, line.number, date[0], date[1], date[2], date[3] - 1 + part), line.number);

@@ -38,12 +38,16 @@ std::size_t place_of(const Cells& header, const std::string& name, const Weather
 
 /// The whole number that stands in a text from `at` on.
 int whole_at(const std::string& text, std::size_t at, std::size_t count, const WeatherRows& rows, int line) {
-    const std::optional<double> number =
-        at < text.size() ? weather_number(text.substr(at, count)) : std::optional<double>();
-    if (!number || *number != std::floor(*number) || std::abs(*number) > 9999) {
-        rows.refuse(line, 0, fmt::format("'{}' is no date or time", text));
-    }
-    return static_cast<int>(*number);
+    const std::optional<int> number = at < text.size() ? part_of_date(text.substr(at, count)) : std::optional<int>();
+    if (!number) rows.refuse(line, 0, fmt::format("'{}' is no date or time", text));
+    return *number;
+}
+
+/// The cells of a row, as many as there are names.
+Cells cells_of_row(const TextLine& line, const Cells& names, const WeatherRows& rows) {
+    Cells cells = weather_cells(line.text);
+    if (cells.size() >= names.size()) return cells;
+    rows.refuse(line.number, 0, fmt::format("this row has {} cells, and the names {}", cells.size(), names.size()));
 }
 
 /// The number behind a word of a line.
@@ -125,11 +129,10 @@ PowerHeader power_header(std::span<const TextLine> lines) {
 
 }  // namespace
 
-WeatherTable read_tmy3(const std::filesystem::path& path, const WeatherReading& reading) {
+WeatherTable read_tmy3(const std::filesystem::path& path, TextLines lines, const WeatherReading& reading) {
     WeatherRows rows(path.string(), reading);
     rows.set_time(RowTime::span_ends, true);
     rows.set_rain_amounts();
-    const std::vector<TextLine> lines = weather_lines(path);
     if (lines.size() < 3) rows.refuse(0, 0, "TMY3 has a line of the station, a line of names, and rows");
     const Cells station = weather_cells(lines[0].text), header = weather_cells(lines[1].text);
     std::array<double, 4> numbers{};  // zone, latitude, longitude, height
@@ -144,10 +147,7 @@ WeatherTable read_tmy3(const std::filesystem::path& path, const WeatherReading& 
     CalendarOfMonths calendar;
     for (std::size_t i = 2; i < lines.size(); ++i) {
         const int line = lines[i].number;
-        const Cells cells = weather_cells(lines[i].text);
-        if (cells.size() < header.size()) {
-            rows.refuse(line, 0, fmt::format("this row has {} cells, and the names {}", cells.size(), header.size()));
-        }
+        const Cells cells = cells_of_row(lines[i], header, rows);
         const auto whole = [&](std::size_t cell, std::size_t at, std::size_t count) {
             return whole_at(cells[cell], at, count, rows, line);
         };
@@ -160,14 +160,14 @@ WeatherTable read_tmy3(const std::filesystem::path& path, const WeatherReading& 
     return table;
 }
 
-WeatherTable read_pvgis(const std::filesystem::path& path, const WeatherReading& reading) {
+WeatherTable read_pvgis(const std::filesystem::path& path, TextLines lines, const WeatherReading& reading) {
     WeatherRows rows(path.string(), reading);
     GroundPlace place;
     std::optional<double> height;
     double offset = 0;
     std::vector<FormColumn> columns;
     CalendarOfMonths calendar;
-    for (const TextLine& line : weather_lines(path)) {
+    for (const TextLine& line : lines) {
         const Cells cells = weather_cells(line.text);
         if (cells[0].starts_with("time")) {
             columns = columns_by_name(cells, pvgis_columns);
@@ -194,11 +194,10 @@ WeatherTable read_pvgis(const std::filesystem::path& path, const WeatherReading&
     return table;
 }
 
-WeatherTable read_nasa_power(const std::filesystem::path& path, const WeatherReading& reading) {
+WeatherTable read_nasa_power(const std::filesystem::path& path, TextLines lines, const WeatherReading& reading) {
     WeatherRows rows(path.string(), reading);
     rows.set_time(RowTime::span_begins);
     rows.set_rain_amounts();
-    const std::vector<TextLine> lines = weather_lines(path);
     const auto end = std::find_if(lines.begin(), lines.end(),
                                   [](const TextLine& line) { return line.text.find("-END HEADER-") == 0; });
     if (end == lines.end() || end + 1 == lines.end()) rows.refuse(0, 0, "this file of POWER has no -END HEADER-");
@@ -222,11 +221,7 @@ WeatherTable read_nasa_power(const std::filesystem::path& path, const WeatherRea
     const bool has_wind_at_10 = std::find(header.begin(), header.end(), "WS10M") != header.end();
     CalendarOfMonths calendar;
     for (auto line = end + 2; line != lines.end(); ++line) {
-        const Cells cells = weather_cells(line->text);
-        if (cells.size() < header.size()) {
-            rows.refuse(line->number, 0,
-                        fmt::format("this row has {} cells, and the names {}", cells.size(), header.size()));
-        }
+        const Cells cells = cells_of_row(*line, header, rows);
         const auto whole = [&](std::size_t cell) { return whole_at(cells[cell], 0, 4, rows, line->number); };
         rows.begin(calendar.hours(rows, line->number, whole(year), whole(month), whole(day), whole(hour)),
                    line->number);

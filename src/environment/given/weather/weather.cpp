@@ -3,6 +3,7 @@
 #include "espalier/base/math.h"
 
 #include "base/text.h"
+#include "environment/exchange/changing_settings.h"
 #include "environment/given/weather/course_of_day.h"
 #include "environment/given/weather/day_of_sun.h"
 #include "environment/leaf/gas/reference_evaporation.h"
@@ -202,18 +203,20 @@ void Weather::take_defaults(const Settings& settings, std::vector<Diagnostic>* w
     take(Q::carbon_dioxide, "co2", 400, nullptr);
 }
 
-std::shared_ptr<const Weather> Weather::named(const std::string& name, const Fields& fields, const Place& place) {
+std::shared_ptr<const Weather> Weather::named_by(const Settings& settings, const char* key, const Fields& fields) {
+    if (!settings.has(key)) return nullptr;
+    const std::string name = settings.text(key);
     const auto* const weather = dynamic_cast<const Weather*>(fields.shared(name));
     if (weather) return {std::shared_ptr<const Weather>(), weather};  // lives as long as the fields
-    throw UserError(place, fmt::format("there is no weather called '{}' before this in the scene: write "
-                                       "[environment.{}] with process = \"weather\" above it",
-                                       name, name));
+    throw UserError(settings.place(key), fmt::format("there is no weather called '{}' before this in the scene: write "
+                                                     "[environment.{}] with process = \"weather\" above it",
+                                                     name, name));
 }
 
-std::vector<Weather::Setting> Weather::numbers() {
-    std::vector<Setting> all;
+std::vector<ChangingSetting> Weather::changing_settings() {
+    std::vector<ChangingSetting> all;
     const auto add = [&](const char* key, Q quantity, Range range) {
-        if (of(quantity)) all.push_back({key, range, &*of(quantity)});
+        if (of(quantity)) all.push_back(changing(key, range, *of(quantity)));
     };
     add("temperature", Q::temperature, Range::between(-40, 60));
     add("humidity", Q::humidity, Range::between(0, 1));
@@ -294,16 +297,11 @@ double Weather::wind_at_2_m(double from, double to) const {
 AirOfStep Weather::of_step(int step, double time, double dt) const {
     const double span = 24 * days_ * dt, to = step > 0 ? 24 * days_ * time : span, from = to - span;
     require_covered(from, to);
+    const Extremes extreme = extremes(from, to);
     AirOfStep air;
     air.temperature = mean(Q::temperature, from, to);
-    air.highest = -300;
-    air.lowest = 300;
-    double warmth = 0;
-    for_pieces(Q::temperature, from, to, [&](double begin, double end, double hours) {
-        air.highest = std::max({air.highest, begin, end});
-        air.lowest = std::min({air.lowest, begin, end});
-        warmth += thermal_.mean_between(begin, end) * hours / 24;
-    });
+    air.highest = extreme.highest;
+    air.lowest = extreme.lowest;
     air.humidity = mean(Q::humidity, from, to);
     air.wind = wind_at_2_m(from, to);
     air.pressure = mean(Q::pressure, from, to);
@@ -313,16 +311,26 @@ AirOfStep Weather::of_step(int step, double time, double dt) const {
     if (step == 0) return air;
     air.rain = integral(Q::rain, from, to);
     air.radiation = integral(Q::global, from, to) * 3600e-6;
-    air.thermal = warmth;
+    for_pieces(Q::temperature, from, to, [&](double begin, double end, double hours) {
+        air.thermal += thermal_.mean_between(begin, end) * hours / 24;
+    });
     if (has_radiation()) air.evaporation = evaporation_between(from, to);
     return air;
+}
+
+Weather::Extremes Weather::extremes(double from, double to) const {
+    Extremes all;
+    for_pieces(Q::temperature, from, to, [&](double begin, double end, double) {
+        all.highest = std::max({all.highest, begin, end});
+        all.lowest = std::min({all.lowest, begin, end});
+    });
+    return all;
 }
 
 double Weather::evaporation_between(double from, double to) const {
     double sum = 0;
     for (double at = from; at < to;) {
-        const double end = std::min(to, 24 * (std::floor(at / 24 + 1e-9) + 1));
-        const double midnight = 24 * std::floor(at / 24 + 1e-9);
+        const double midnight = 24 * std::floor(at / 24 + 1e-9), end = std::min(to, midnight + 24);
         const double all = integral(Q::global, midnight, midnight + 24);
         const double share = all > 0 ? integral(Q::global, at, end) / all : (end - at) / 24;
         sum += reference_of_day(midnight / 24) * share;
@@ -333,13 +341,10 @@ double Weather::evaporation_between(double from, double to) const {
 
 double Weather::reference_of_day(double day) const {
     const double from = 24 * day, to = from + 24;
+    const Extremes extreme = extremes(from, to);
     leaf::DayOfAir air;
-    air.highest = -300;
-    air.lowest = 300;
-    for_pieces(Q::temperature, from, to, [&](double begin, double end, double) {
-        air.highest = std::max({air.highest, begin, end});
-        air.lowest = std::min({air.lowest, begin, end});
-    });
+    air.highest = extreme.highest;
+    air.lowest = extreme.lowest;
     constexpr int samples = 48;
     air.vapour_pressure = 0;
     for (int k = 0; k < samples; ++k) {

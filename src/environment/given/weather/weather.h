@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/base/settings.h"
+#include "espalier/environment/environment_process.h"
 #include "espalier/geometry/field.h"
 
 #include "environment/given/weather/thermal_time.h"
@@ -35,9 +36,9 @@ public:
     /// Reads the keys of `weather_help`. Throws UserError.
     explicit Weather(const Settings& settings, std::vector<Diagnostic>* warnings = nullptr);
 
-    /// The weather that a process of the scene shares under this name. Throws UserError at `place` if none before it
-    /// does.
-    static std::shared_ptr<const Weather> named(const std::string& name, const Fields& fields, const Place& place);
+    /// The weather that a process of the scene shares under the name at this key; null without the key. Throws
+    /// UserError if no process before this one does.
+    static std::shared_ptr<const Weather> named_by(const Settings& settings, const char* key, const Fields& fields);
 
     /// That a unit of the scene's time stands for.
     double days() const { return days_; }
@@ -48,13 +49,8 @@ public:
     const AirOfStep& now() const { return now_; }
     void set_now(const AirOfStep& now) { now_ = now; }
 
-    struct Setting {
-        std::string key;
-        Range range;
-        double* value;
-    };
     /// What the scene gives as numbers.
-    std::vector<Setting> numbers();
+    std::vector<ChangingSetting> changing_settings();
 
     /// Null: all is constant.
     const std::shared_ptr<const WeatherTable>& table() const { return table_; }
@@ -76,6 +72,9 @@ public:
 
 private:
     using Visit = std::function<void(double begin, double end, double hours)>;
+    struct Extremes {
+        double highest = -300, lowest = 300;
+    };
 
     std::optional<double>& of(AirQuantity quantity) { return constants_[static_cast<std::size_t>(quantity)]; }
     const std::optional<double>& of(AirQuantity quantity) const {
@@ -98,6 +97,7 @@ private:
     double integral(AirQuantity quantity, double from, double to) const;
     double mean(AirQuantity quantity, double from, double to) const;
     double wind_at_2_m(double from, double to) const;
+    Extremes extremes(double from, double to) const;
     double evaporation_between(double from, double to) const;
 
     std::array<std::optional<double>, air_quantities> constants_;

@@ -128,8 +128,8 @@ std::optional<int> digits(const std::string& text, std::size_t at, std::size_t c
 /// Reads one file.
 class WeatherCsv {
 public:
-    WeatherCsv(const std::filesystem::path& path, const WeatherReading& reading)
-        : table_(path, true), reading_(reading), rows_(path.string(), reading) {}
+    WeatherCsv(const std::filesystem::path& path, const std::string& text, const WeatherReading& reading)
+        : table_(path, text, true), reading_(reading), rows_(path.string(), reading) {}
 
     WeatherTable read() {
         for (const CsvRow& row : table_.rows()) {
@@ -299,8 +299,9 @@ private:
 
 }  // namespace
 
-WeatherTable read_weather_csv(const std::filesystem::path& path, const WeatherReading& reading) {
-    return WeatherCsv(path, reading).read();
+WeatherTable read_weather_csv(const std::filesystem::path& path, const std::string& text,
+                              const WeatherReading& reading) {
+    return WeatherCsv(path, text, reading).read();
 }
 
 }  // namespace espalier::environment

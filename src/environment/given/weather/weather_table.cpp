@@ -168,24 +168,39 @@ void WeatherRows::require_rising_times() const {
     }
 }
 
-/// Where rows are missing, they are laid as rows without values, or refused.
+/// Where rows are missing, there are rows without values, or they are refused.
 void WeatherRows::lay_gaps() {
     const double usual = usual_span(hours_);
-    for (std::size_t i = 1; i < hours_.size(); ++i) {
-        const double span = hours_[i] - hours_[i - 1];
-        if (span <= 1.5 * usual) continue;
-        if (!reading_.fill_hours || span - usual > *reading_.fill_hours + 1e-9) {
-            refuse(lines_[i], 0,
-                   fmt::format("there is a gap in time: {:g} hours since the row before, where others are {:g} apart; "
-                               "give the rows between, or write fill = \"linear\" and fill_hours = {:g}",
-                               span, usual, std::ceil(span - usual)));
+    std::vector<double> hours;
+    std::vector<int> lines;
+    std::vector<std::size_t> places;  // of the rows, among all
+    for (std::size_t i = 0; i < hours_.size(); ++i) {
+        if (i > 0) require_bridgeable(i, usual);
+        while (i > 0 && hours_[i] - hours.back() > 1.5 * usual) {
+            hours.push_back(hours.back() + usual);
+            lines.push_back(lines_[i]);
         }
-        const auto at = static_cast<std::ptrdiff_t>(i);
-        hours_.insert(hours_.begin() + at, hours_[i - 1] + usual);
-        lines_.insert(lines_.begin() + at, lines_[i]);
-        for (std::vector<double>& column : values_) column.insert(column.begin() + at, not_measured);
-        for (Hole& hole : holes_) hole.row += hole.row >= i ? 1 : 0;
+        places.push_back(hours.size());
+        hours.push_back(hours_[i]);
+        lines.push_back(lines_[i]);
     }
+    for (std::vector<double>& column : values_) {
+        std::vector<double> all(hours.size(), not_measured);
+        for (std::size_t i = 0; i < places.size(); ++i) all[places[i]] = column[i];
+        column = std::move(all);
+    }
+    for (Hole& hole : holes_) hole.row = places[hole.row];
+    hours_ = std::move(hours);
+    lines_ = std::move(lines);
+}
+
+void WeatherRows::require_bridgeable(std::size_t row, double usual) const {
+    const double span = hours_[row] - hours_[row - 1];
+    if (span <= 1.5 * usual || (reading_.fill_hours && span - usual <= *reading_.fill_hours + 1e-9)) return;
+    refuse(lines_[row], 0,
+           fmt::format("there is a gap in time: {:g} hours since the row before, where others are {:g} apart; give the "
+                       "rows between, or write fill = \"linear\" and fill_hours = {:g}",
+                       span, usual, std::ceil(span - usual)));
 }
 
 void WeatherRows::lay_times(WeatherTable& table) const {

@@ -133,6 +133,7 @@ private:
 
     void require_rising_times() const;
     void lay_gaps();
+    void require_bridgeable(std::size_t row, double usual) const;
     void lay_times(WeatherTable& table) const;
     void refuse_shares_as_percent() const;
     void take_light(WeatherTable& table);

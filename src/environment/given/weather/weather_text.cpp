@@ -1,8 +1,5 @@
 #include "environment/given/weather/weather_text.h"
 
-#include "espalier/base/file.h"
-
-#include "base/byte_order_mark.h"
 #include "base/csv_file.h"
 #include "base/number.h"
 #include "base/text.h"
@@ -10,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <sstream>
 
 namespace espalier::environment {
@@ -25,12 +23,7 @@ bool is_leap_year(int year) {
 
 }  // namespace
 
-std::vector<TextLine> weather_lines(const std::filesystem::path& path) {
-    std::string text = read_text(path);
-    text.erase(0, byte_order_mark(text));
-    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-        throw UserError({path.string(), 1, 0}, "this file is UTF-16: save it in UTF-8");
-    }
+std::vector<TextLine> weather_lines(const std::string& text) {
     std::istringstream stream(text);
     std::vector<TextLine> lines;
     std::string line;
@@ -49,6 +42,12 @@ std::vector<std::string> weather_cells(const std::string& text) {
 
 std::optional<double> weather_number(const std::string& cell) {
     return finite_number(cell.starts_with('+') ? std::string_view(cell).substr(1) : std::string_view(cell));
+}
+
+std::optional<int> part_of_date(const std::string& cell) {
+    const std::optional<double> number = weather_number(cell);
+    if (!number || std::abs(*number) > 9999 || *number != std::floor(*number)) return std::nullopt;
+    return static_cast<int>(*number);
 }
 
 void set_cells(WeatherRows& rows, std::span<const FormColumn> columns, const std::vector<std::string>& cells, int line,

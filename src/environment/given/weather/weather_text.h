@@ -10,16 +10,13 @@
 
 namespace espalier::environment {
 
-struct TextLine {
-    int number = 0;  ///< in the file, from 1
-    std::string text;
-};
-
-/// Without byte-order mark, carriage returns and empty lines.
-std::vector<TextLine> weather_lines(const std::filesystem::path& path);
+/// Without carriage returns and empty lines.
+std::vector<TextLine> weather_lines(const std::string& text);
 /// Of a line, between commas.
 std::vector<std::string> weather_cells(const std::string& text);
 std::optional<double> weather_number(const std::string& cell);
+/// The same if it is whole and can be part of a date.
+std::optional<int> part_of_date(const std::string& cell);
 
 /// A column of a form: where it stands, in which unit, and what stands there for no value.
 struct FormColumn {
@@ -47,7 +44,6 @@ private:
     int first_year_ = 0, first_month_ = 0, first_day_ = 0, month_ = 0, day_ = 0;
     long long days_ = 0;
     std::optional<bool> has_leap_day_;
-    bool changes_year_ = false;
 };
 
 }  // namespace espalier::environment

@@ -34,11 +34,6 @@ double light_of(const Settings& sky, const char* key) {
 
 }  // namespace
 
-std::shared_ptr<const Weather> weather_of_sky(const Settings& sky, const Fields& fields) {
-    if (!sky.has("weather")) return nullptr;
-    return Weather::named(sky.text("weather"), fields, sky.place("weather"));
-}
-
 DaylightSeries::DaylightSeries(const Settings& sky, double lowest_rise, std::vector<Diagnostic>* warnings)
     : DaylightSeries(sky, lowest_rise, nullptr, warnings) {}
 

@@ -125,9 +125,6 @@ private:
     std::vector<Hour> hours_;  ///< of a day, and how many each stands for
 };
 
-/// The weather that the table `sky` names, if it does. Throws UserError where the scene has none of that name.
-std::shared_ptr<const Weather> weather_of_sky(const Settings& sky, const Fields& fields);
-
 /// What users read of the table.
 const std::string& sky_help();
 

@@ -3,7 +3,6 @@
 
 #include "environment/given/weather/weather_table.h"
 
-#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>

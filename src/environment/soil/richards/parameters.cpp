@@ -139,9 +139,16 @@ void read_map(const Settings& settings, const Settings& named, SoilParameters& p
 }
 
 /// The weather's rain and evaporation; what the table says itself counts instead.
-void read_weather(const Settings& top, const std::shared_ptr<const Weather>& weather, SoilSurface& surface) {
+void read_weather(const Settings& top, const std::shared_ptr<const Weather>& weather, std::vector<Diagnostic>* warnings,
+                  SoilSurface& surface) {
     const auto next_change = [weather](double day) { return weather->next_change(day); };
     if (!top.has("rain")) {
+        if (!weather->has_rain() && warnings) {
+            warnings->push_back({Diagnostic::Severity::warning, top.place("weather"),
+                                 fmt::format("the weather '{}' knows no rain, and none falls: write rain = ... (mm/d) "
+                                             "in its table or here",
+                                             top.text("weather"))});
+        }
         surface.rain = SoilSeries::of([weather](double day) { return weather->rain_rate(day); }, next_change);
     }
     if (top.has("evaporation")) return;
@@ -154,14 +161,16 @@ void read_weather(const Settings& top, const std::shared_ptr<const Weather>& wea
     surface.evaporation = SoilSeries::of([weather](double day) { return weather->evaporation_rate(day); }, next_change);
 }
 
+/// Null beside a head or a flux, where rain is a key that nothing reads, too.
 std::shared_ptr<const Weather> weather_above(const Settings& settings, const Fields& fields) {
     const Settings boundaries = settings.table("boundaries");
-    if (!boundaries.is_table("top") || !boundaries.table("top").has("weather")) return nullptr;
+    if (!boundaries.is_table("top")) return nullptr;
     const Settings top = boundaries.table("top");
-    return Weather::named(top.text("weather"), fields, top.place("weather"));
+    return top.has("head") || top.has("flux") ? nullptr : Weather::named_by(top, "weather", fields);
 }
 
-void read_surface(const Settings& boundaries, const std::shared_ptr<const Weather>& weather, SoilSurface& surface) {
+void read_surface(const Settings& boundaries, const std::shared_ptr<const Weather>& weather,
+                  std::vector<Diagnostic>* warnings, SoilSurface& surface) {
     if (!boundaries.is_table("top")) {
         boundaries.choice_or("top", "no-flux", {"no-flux"});
         return;
@@ -177,7 +186,7 @@ void read_surface(const Settings& boundaries, const std::shared_ptr<const Weathe
         surface.kind = SoilSurface::Kind::atmosphere;
         surface.rain = SoilSeries::read(top, "rain", 0, rate_range);
         surface.evaporation = SoilSeries::read(top, "evaporation", 0, rate_range);
-        if (weather) read_weather(top, weather, surface);
+        if (weather) read_weather(top, weather, warnings, surface);
         surface.dry_limit = read_head_or(top, "dry_limit", -10000, Range::between(-1e6, -1));
         surface.ponding = top.number_or("ponding", 0, rate_range);
     }
@@ -292,7 +301,7 @@ SoilParameters read_soil_parameters(Settings& settings, const EnvironmentContext
 
     const Settings boundaries = settings.table("boundaries");
     if (!is_still) {
-        read_surface(boundaries, weather, parameters.surface);
+        read_surface(boundaries, weather, context.warnings, parameters.surface);
         read_floor(boundaries, parameters.floor);
     }
     parameters.periodic = boundaries.choice_or("sides", "closed", {"closed", "periodic"}) == "periodic";
