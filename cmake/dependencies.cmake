@@ -16,8 +16,6 @@ find_package(CLI11 REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_library(LZ4_LIBRARY lz4 REQUIRED)
-find_path(SLEEF_INCLUDE_DIR sleef.h REQUIRED)
-find_library(SLEEF_LIBRARY sleef REQUIRED)
 find_path(EMBREE_INCLUDE_DIR NAMES embree3/rtcore.h embree4/rtcore.h REQUIRED)
 find_library(EMBREE_LIBRARY NAMES embree3 embree4 REQUIRED)
 

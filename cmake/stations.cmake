@@ -7,6 +7,15 @@ set(environment_GRIDS given leaf light soil space)
 set_source_files_properties(src/environment/soil/linear/steady.cpp src/analysis/least_squares.cpp PROPERTIES
   COMPILE_DEFINITIONS EIGEN_DONT_VECTORIZE)
 
+# Functions of columns for each width of vectors (src/base/math_lanes.h): compiled alone, each for its processors.
+set(wide_math src/base/math_columns_256.cpp src/base/math_columns_512.cpp)
+set_source_files_properties(${wide_math} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$" AND NOT WIN32)  # GCC for Windows does not align its stack
+  set_source_files_properties(src/base/math_columns_256.cpp PROPERTIES COMPILE_OPTIONS -mavx2)
+  set_source_files_properties(src/base/math_columns_512.cpp PROPERTIES COMPILE_OPTIONS -mavx512f)
+  set_source_files_properties(src/base/math_columns.cpp PROPERTIES COMPILE_DEFINITIONS ESPALIER_WIDE_MATH)
+endif()
+
 function(add_objects name)
   add_library(${name} OBJECT ${ARGN})
   target_include_directories(${name} PRIVATE src)

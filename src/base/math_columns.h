@@ -1,5 +1,5 @@
 // Functions and random numbers for columns of values, several at a time: to the last bit what base/math.h and
-// base/random.h give for each alone (a NaN may have another sign).
+// base/random.h give for each alone.
 #pragma once
 
 #include "espalier/base/random.h"
@@ -14,6 +14,8 @@ void sin(std::span<const double> angles, double* sines);
 void cos(std::span<const double> angles, double* cosines);
 void exp(std::span<const double> values, double* powers);
 void log(std::span<const double> values, double* logarithms);
+
+void atan2(std::span<const double> y, std::span<const double> x, double* angles);
 
 /// Powers of each base to its own exponent, which are not written over.
 void pow(std::span<const double> bases, std::span<const double> exponents, double* powers);

@@ -9,7 +9,7 @@ namespace {
 using namespace layout;
 
 const std::vector<fs::path> wrappers{"include/espalier/base/math.h", "src/base/math.cpp", "src/base/math_columns.h",
-                                     "src/base/math_columns.cpp"};
+                                     "src/base/math_columns.cpp", "src/base/math_lanes.h"};
 
 /// The line without what stands in strings and comments; `raw` is the end of a raw string that goes on in the next.
 std::string code_in(const std::string& line, std::string& raw) {

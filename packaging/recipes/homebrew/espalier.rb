@@ -19,7 +19,6 @@ class Espalier < Formula
   depends_on "lz4"
   depends_on "openvdb"
   depends_on "qhull"
-  depends_on "sleef"
   depends_on "tbb"
   depends_on "tomlplusplus"
   depends_on "vtk"

@@ -16,7 +16,6 @@
   nlohmann_json,
   openvdb,
   qhull,
-  sleef,
   tbb,
   tomlplusplus,
   vtk,
@@ -49,7 +48,6 @@ stdenv.mkDerivation (finalAttrs: {
     nlohmann_json
     openvdb
     qhull
-    sleef
     tbb
     tomlplusplus
     vtk

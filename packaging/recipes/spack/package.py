@@ -33,7 +33,6 @@ class Espalier(CMakePackage):
     depends_on("libpng")
     depends_on("lz4")
     depends_on("openvdb")
-    depends_on("sleef")
     depends_on("tomlplusplus")
     with when("+look"):
         depends_on("boost@1.74:")
