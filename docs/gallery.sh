@@ -241,6 +241,12 @@ entry environments/root-2d-stones.toml "Root between stones" "Mech & Prusinkiewi
 entry environments/root-2d-uniform.toml "Root in evenly moist soil" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0
 entry environments/storm-on-layers.toml "A storm on layers of loam, clay and sand" "Richards 1931; Celia et al. 1990" -- --field water:slice --no-legend --azimuth 0 --elevation 0
 entry environments/leaf-day.toml "A clear day of a plant that drinks" "Farquhar et al. 1980; Medlyn et al. 2011" --steps 28 -- --colour-by leaves.temperature --no-legend
+entry environments/price-of-shade.toml "The price of shade" "Farquhar et al. 1980; ours" --
+grown_by environments/price-of-shade.toml models/light/carbon-tree.l "A young tree that lives on what its leaves gain" "ours"
+entry environments/price-of-shade-alone.toml "A tree that pays for no neighbour" "ours" --
+entry environments/yield-by-density.toml "A dense field" "Shinozaki & Kira 1956" --
+entry environments/fruiting-shoot.toml "A shoot with six fruits" "Allen, Prusinkiewicz & DeJong 2005" -- --colour-by carbon.sugar --no-legend
+grown_by environments/fruiting-shoot.toml models/light/fruiting-shoot.l "A shoot that bears fruit" "ours"
 grown_by environments/leaf-day.toml models/water/drinking.l "A plant that drinks" "ours"
 entry environments/root-drought.toml "A root in a drought" "Doussan et al. 1998; Schroeder et al. 2008" --steps 48 -- --field water:slice --no-legend
 entry environments/hydraulic-lift.toml "Water lifted at night" "Richards & Caldwell 1987" --steps 72 -- --field roots:slice --no-legend

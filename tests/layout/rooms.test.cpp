@@ -68,11 +68,12 @@ const std::map<std::string, std::vector<Room>> stations{
      {
          {"exchange", ""},
          {"leaf/gas", ""},
+        {"leaf/carbon", ""},
          {"light/sun", ""},
          {"given/weather", "exchange leaf/gas light/sun"},
          {"given/external", "exchange"},
          {"given", "exchange leaf/gas given/external given/weather"},
-         {"leaf", "exchange leaf/gas given/weather"},
+         {"leaf", "exchange leaf/gas leaf/carbon given/weather"},
          {"light/shade", "exchange"},
          {"light/sky", "light/sun given/weather"},
          {"light/optics", "light/sky"},

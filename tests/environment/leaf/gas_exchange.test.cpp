@@ -225,7 +225,7 @@ TEST_CASE("a day's mean of light overrates a clear day", "[leaf]") {
 }
 
 TEST_CASE("FAO-56: the lawn of Brussels on 6 July", "[leaf]") {
-    const ReferenceEvaporation lawn = reference_evaporation({21.5, 12.3, 1.409, 2.078, 9.25, 50.80, 100, 187});
+    const ReferenceEvaporation lawn = reference_evaporation({21.5, 12.3, 1.409, 2.078, 9.25, 50.80, 100, 187, {}});
     CHECK(lawn.net_radiation == Approx(13.28).margin(0.05));
     CHECK(lawn.evaporation == Approx(3.88).margin(0.01));
 }
