@@ -68,7 +68,7 @@ const std::map<std::string, std::vector<Room>> stations{
      {
          {"exchange", ""},
          {"leaf/gas", ""},
-        {"leaf/carbon", ""},
+         {"leaf/carbon", ""},
          {"light/sun", ""},
          {"given/weather", "exchange leaf/gas light/sun"},
          {"given/external", "exchange"},
