@@ -20,7 +20,9 @@ namespace {
 using namespace leaf;
 
 constexpr double seconds_per_day = 86400;
-constexpr double water_density = 0.998;  ///< g cm-3
+constexpr double water_density = 0.998;    ///< g cm-3
+constexpr double photons_of_joule = 4.57;  ///< umol of daylight's PAR (McCree 1972)
+constexpr double least_part = 1e-3;        ///< of a leaf, which is not divided below
 
 using Values = std::shared_ptr<const std::vector<float>>;
 
@@ -35,6 +37,13 @@ struct LeafStep {
 /// A leaf's light, from the process that measures it.
 struct OrganLightValues {
     Values power, near_infrared, area, lit;
+    Values sunlit, direct, direct_near_infrared;  ///< null where leaves are not divided
+};
+
+/// Parts of a leaf in the sun's own light and out of it (de Pury & Farquhar 1997): photosynthesis is not linear.
+struct LitParts {
+    double sunlit = 0;  ///< share of the area
+    LeafLight sun, shade;
 };
 
 struct LeafQuantity {
@@ -71,6 +80,7 @@ public:
           air_(SceneAir::read(settings)),
           near_infrared_(settings.number_or("nir", 0.25, Range::between(0, 10))),
           potential_(settings.number_or("potential", 0, Range::between(-20, 0))),
+          is_divided_(settings.flag_or("sunlit", true)),
           days_(read_days(settings, weather_.get())),
           leaves_(context.plants),
           residuals_(context.plants, 0) {
@@ -192,8 +202,13 @@ private:
         const auto values = [&](const char* quantity) {
             return environment.organ_values(light_ + "." + quantity, plant.plant);
         };
-        const OrganLightValues light{values("power"), has_near_infrared_ ? values("power.nir") : nullptr,
-                                     values("area"), values("lit")};
+        const OrganLightValues light{values("power"),
+                                     has_near_infrared_ ? values("power.nir") : nullptr,
+                                     values("area"),
+                                     values("lit"),
+                                     is_divided_ ? values("sunlit") : nullptr,
+                                     is_divided_ ? values("direct") : nullptr,
+                                     is_divided_ && has_near_infrared_ ? values("direct.nir") : nullptr};
         std::vector<LeafStep>& leaves = leaves_[plant.plant];
         if (!light.area || !light.power || !light.lit) return;
         leaves.assign(light.area->size(), {});
@@ -209,16 +224,50 @@ private:
         residuals_[plant.plant] = leaves.empty() ? 0 : *std::max_element(residuals.begin(), residuals.end());
     }
 
-    LeafLight light_on(const OrganLightValues& values, std::size_t module) const {
+    LitParts light_on(const OrganLightValues& values, std::size_t module) const {
         const double power = (*values.power)[module];
-        if (!(power > 0)) return dark_;
+        if (!(power > 0)) return {0, dark_, dark_};
         const double near = values.near_infrared ? (*values.near_infrared)[module] : near_infrared_ * power;
-        return {4.57 * power, near, dark_.thermal};
+        const LeafLight mean{photons_of_joule * power, near, dark_.thermal};
+        const double sunlit = values.sunlit ? std::min(1.0f, (*values.sunlit)[module]) : 0;
+        if (!(sunlit > least_part && sunlit < 1 - least_part)) return {0, mean, mean};
+        const double direct = (*values.direct)[module];
+        const double near_direct = values.direct_near_infrared ? (*values.direct_near_infrared)[module] : direct;
+        const auto part = [&](double of_direct) {
+            return LeafLight{mean.photons * (1 + direct * (of_direct - 1)), near * (1 + near_direct * (of_direct - 1)),
+                             mean.thermal};
+        };
+        return {sunlit, part(1 / sunlit), part(0)};
+    }
+
+    struct Solved {
+        GasExchange leaf;
+        double residual = 0;  ///< the largest
+    };
+
+    Solved solved(const LeafLight& light) const {
+        const GasExchange leaf = gas_exchange(kind_, light, now_, potential_);
+        return {leaf, residuals_of(leaf, kind_, light, now_, potential_).largest()};
+    }
+
+    /// Both parts of a leaf, and what they are together.
+    Solved solved(const LitParts& light) const {
+        Solved all = solved(light.shade);
+        if (light.sunlit == 0) return all;
+        const Solved sun = solved(light.sun);
+        for (double GasExchange::*const rate :
+             {&GasExchange::assimilation, &GasExchange::transpiration, &GasExchange::conductance,
+              &GasExchange::temperature, &GasExchange::internal, &GasExchange::deficit}) {
+            all.leaf.*rate += light.sunlit * (sun.leaf.*rate - all.leaf.*rate);
+        }
+        all.residual = std::max(all.residual, sun.residual);
+        return all;
     }
 
     /// Returns the largest residual.
-    double exchange(LeafStep& leaf, const LeafLight& light, double lit, bool has_time_passed) const {
-        leaf.lit = gas_exchange(kind_, light, now_, potential_);
+    double exchange(LeafStep& leaf, const LitParts& light, double lit, bool has_time_passed) const {
+        const Solved found = solved(light);
+        leaf.lit = found.leaf;
         if (has_time_passed) {
             const double dark_seconds = std::max(0.0, seconds_ - lit);
             const double bright = std::min(lit, seconds_);
@@ -226,7 +275,7 @@ private:
             leaf.water = leaf.area * (leaf.lit.transpiration * bright + unlit_.transpiration * dark_seconds) *
                          water_molar_mass * 1000 / water_density;
         }
-        return residuals_of(leaf.lit, kind_, light, now_, potential_).largest();
+        return found.residual;
     }
 
     LeafStep leaf_behind(const Query& query) const {
@@ -242,7 +291,9 @@ private:
     SceneAir air_;
     std::set<std::string> own_air_;  ///< keys that the weather does not change
     bool has_own_pressure_ = false;
-    double near_infrared_, potential_, days_;
+    double near_infrared_, potential_;
+    bool is_divided_;
+    double days_;
     // Of the step.
     double seconds_ = 0;
     bool has_near_infrared_ = false;  ///< the light measures it
@@ -263,6 +314,8 @@ light          required; name of the process of light, which stands before this 
 nir            0.25; without such a band, near infrared that leaves absorb, as a share of the energy of PAR that they do
 potential      0 MPa; water potential of all leaves, by which stomata close where `sf` is above 0. Roots take what the leaves
                give where a root-water says collar = { leaves = "name of this process" }
+sunlit         true; leaves are a part in the sun's own light and a part without it, by the shares that the light tells; false:
+               their mean light counts
 days           1; days that a unit of time stands for
 
 Of the leaves:

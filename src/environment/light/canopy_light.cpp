@@ -337,7 +337,7 @@ scattering    { rings = 3, around = 6, residual = 0.01 }: directions of scattere
         R"(sky           the table of the light, below
 
 Fields: name, photons across all directions (mol/m2, first band); name.leaf_area_density (m2/m3).
-Of organs a timeline can record absorbed, flux, front, back, reflected, each for every band, sunlit and brightest.
+Of organs a timeline can record absorbed, flux, front, back, reflected, direct, each for every band, sunlit, brightest.
 Statistics of a plant: absorbed, of further bands absorbed.BAND, leaf_area (m2), mean (absorbed per area over what falls
 on open level ground); of the world: incoming (per m2 of open level ground), passed (share of the light over the voxels
 that meets nothing), for each band soil and escaped (shares of the light), closure (all shares, less 1).

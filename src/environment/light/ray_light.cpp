@@ -503,7 +503,7 @@ solids        [[solids]] tables of shapes with bounds; their surfaces are made w
         optics_help() + lamps_help() + sensors_help() +
         R"(sky           the table of the light, below
 
-Of organs a timeline can record absorbed, flux, front, back, reflected and error, each for every band, sunlit and
+Of organs a timeline can record absorbed, flux, front, back, reflected, direct, error, each for every band, sunlit,
 brightest. Statistics of a plant: leaf_area (m2, one side), absorbed (mol) with its standard error absorbed_error, also of
 further bands as absorbed.BAND, mean (absorbed per leaf area over what falls on open level ground); of the world: incoming
 (per m2 of it), for each band soil and escaped (shares of the light), closure (all shares, less 1: rounding, and of several

@@ -76,6 +76,46 @@ TEST_CASE("nothing is gained before time has passed", "[leaf-exchange]") {
     CHECK(of_leaf(environment, "assimilation") > 5);
 }
 
+namespace {
+
+/// Level leaves of 1 dm2 between the heights 0 and 1.5 m, as many in each column of voxels: a leaf area index of 3.
+AskingPlants level_leaves(std::uint64_t seed) {
+    AskingPlants plants;
+    std::vector<Asked> questions(1200, Asked{{0, 0, 0}, {0}});
+    plants.add(questions);
+    for (std::uint32_t k = 0; k < 1200; ++k) {
+        const double height = 1.5 * static_cast<double>(mix(k, seed) >> 11) * 0x1p-53;
+        const glm::dvec3 middle{0.25 + 0.5 * (k % 4), height, 0.25 + 0.5 * (k / 4 % 4)};
+        draw_square(plants.interpretation(0).geometry, k, middle, {1, 0, 0}, {0, 0, 1}, 0.1);
+    }
+    return plants;
+}
+
+/// Over 4 m2 of ground, mol in a day under a sun in the zenith.
+double gain_of_canopy(const std::string& of_leaves, std::uint64_t seed) {
+    Environment environment = scene("[light]\nprocess = \"canopy-light\"\nvoxel = 0.5\nperiodic = true\n" + black +
+                                    "sky = { par = 1200, diffuse = 0, sun = [0, 1, 0] }\n" + leaves +
+                                    "nir = 0\ng0 = 0\nthermal = 790\n" + of_leaves);
+    AskingPlants plants = level_leaves(seed);
+    plants.exchange(environment, 1);
+    return of_plant(environment, "gain");
+}
+
+}  // namespace
+
+// Leaves of voxels half a metre wide: by Beer's law 1 - exp(-3) of the ground's area are in the sun, and no leaf is
+// half lit.
+TEST_CASE("a canopy gains what its sunlit and its shaded leaves gain", "[leaf-exchange]") {
+    const leaf::Air air{25, 0.6 * leaf::saturation_pressure(25), 1, 400, leaf::sea_level};
+    const double sun = leaf::gas_exchange({}, {1200, 0, 790}, air).assimilation;
+    const double shade = leaf::gas_exchange({}, {0, 0, 790}, air).assimilation;
+    const double sunlit = 1 - std::exp(-3.0), expected = 4 * (sunlit * sun + (3 - sunlit) * shade) * 1e-6 * 86400;
+    for (const std::uint64_t seed : {3, 8}) {
+        CHECK(gain_of_canopy("", seed) == Approx(expected).epsilon(0.002));
+        CHECK(gain_of_canopy("sunlit = false\n", seed) > 1.3 * expected);
+    }
+}
+
 TEST_CASE("what leaves say of the scene is one line", "[leaf-exchange]") {
     const auto mistake = [](const std::string& tables) {
         try {

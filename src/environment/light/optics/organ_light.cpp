@@ -95,6 +95,8 @@ std::vector<OrganQuantity> OrganLight::organ_quantities(bool with_errors) const 
         all.push_back({of_band("front", bands_, b), unit, "light that falls on the front"});
         all.push_back({of_band("back", bands_, b), unit, "light that falls on the back"});
         all.push_back({of_band("reflected", bands_, b), unit, "light that falls on the organ and is not absorbed"});
+        all.push_back(
+            {of_band("direct", bands_, b), "", "share of what leaves absorb that comes straight from the sun"});
         if (with_errors) all.push_back({of_band("error", bands_, b), unit, "standard error of what it absorbs"});
     }
     all.push_back({"area", "m2", "area of leaves, one side"});
@@ -113,6 +115,10 @@ double OrganLight::value(const std::string& what, std::size_t slot, std::size_t 
     if (what == "error") return amount(meeting.error, band);
     const double area = area_of(slot);
     if (!(area > 0 && light_.seconds > 0)) return no_value;
+    if (what == "direct") {
+        const double met = meeting.front + meeting.back;
+        return met > 0 ? std::min(1.0, views_[slot].sun / met) : 0;
+    }
     const double photons = 1e6 * meeting.absorbed * factors_[band] / area / light_.seconds;
     if (what == "power") return photons / bands_[band].photons;
     return units_[band] * photons;
