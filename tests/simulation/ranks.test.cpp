@@ -1,5 +1,6 @@
 // Worlds that several ranks grow together: the bytes of one that grows alone.
 #include "espalier/simulation/simulation.h"
+#include "espalier/simulation/world_checkpoint.h"
 
 #include "catch.h"
 #include "simulation/run/allowed_memory.h"
@@ -101,10 +102,10 @@ TEST_CASE_METHOD(Spread, "two roots on two ranks drink from one soil, whose bala
 
     std::array<double, 2> drunk_by{}, drunk{}, missing{}, balance{};  // of a rank's plant; of the soil that it knows
     const auto errors = on_ranks(2, [&](Ranks& ranks) {
-        World world(described, std::size_t(-1), {}, nullptr, &ranks);
+        World world(described, {.ranks = &ranks});
         const auto rank = static_cast<std::size_t>(ranks.rank());
         world.start();
-        const std::uint32_t own = world.modules_of(0) > 0 ? 0 : 1;
+        const std::uint32_t own = world.modules(0) > 0 ? 0 : 1;
         const auto statistic = [&](const std::string& name) {
             for (const Quantity& quantity : world.environment().statistics(own)) {
                 if (quantity.name == name) return quantity.value;
@@ -162,7 +163,7 @@ TEST_CASE_METHOD(Spread, "only queries that change answers elsewhere are sent", 
             "scene.toml", path());
         std::array<std::uint64_t, 2> bytes{};
         on_ranks(2, [&](Ranks& ranks) {
-            World world(described, std::size_t(-1), {}, nullptr, &ranks);
+            World world(described, {.ranks = &ranks});
             world.start();
             for (int step = 0; step < 8; ++step) world.step();
             bytes[static_cast<std::size_t>(ranks.rank())] = world.times().bytes;
@@ -192,7 +193,7 @@ TEST_CASE_METHOD(Spread, "the first rank gets the plants of others part by part,
     EveryThird recorder;
     std::array<std::vector<std::uint64_t>, 3> sent;
     const auto errors = on_ranks(3, [&](Ranks& ranks) {
-        World world(described, std::size_t(-1), {}, nullptr, &ranks);
+        World world(described, {.ranks = &ranks});
         if (ranks.rank() == 0) world.attach(recorder);
         world.start();
         for (int step = 1; step <= 8; ++step) {
@@ -396,11 +397,11 @@ TEST_CASE_METHOD(Spread, "plants move to ranks that have less to do, and no byte
 
     std::array<std::size_t, 2> modules{};
     const std::vector<std::string> errors = on_ranks(2, [&](Ranks& ranks) {
-        World world(described, std::size_t(-1), {}, nullptr, &ranks);
+        World world(described, {.ranks = &ranks});
         world.start();
         for (int step = 0; step < 9; ++step) {
             world.step();
-            world.prepare_save(path());
+            WorldCheckpoint(world).prepare(path());
         }
         for (std::size_t plant = 0; plant < world.size(); ++plant) {
             modules[static_cast<std::size_t>(ranks.rank())] += world.string(plant).size();
