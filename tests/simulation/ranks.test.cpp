@@ -215,6 +215,43 @@ TEST_CASE_METHOD(Spread, "the first rank gets the plants of others part by part,
     CHECK(sent[1][5] > 100 * sent[1][6]);
 }
 
+TEST_CASE_METHOD(Spread, "the first rank frees what it has recorded of the plants of others", "[simulation][ranks]") {
+    class Recorded : public Recorder {
+    public:
+        bool reads_plants_at(int, bool) const override { return true; }
+        void record(const Frame& frame) override {
+            for (const PlantFrame& plant : frame.plants) modules += plant.string->size();
+        }
+        void finish() override {}
+
+        std::size_t modules = 0;
+    };
+    const Scene described = scene(light);
+    Recorded recorder;
+    std::size_t modules = 0, held = 0, plants_held = 0;
+    const auto errors = on_ranks(3, [&](Ranks& ranks) {
+        World world(described, {.ranks = &ranks});
+        if (ranks.rank() == 0) world.attach(recorder);
+        world.start();
+        for (int step = 1; step <= 6; ++step) {
+            if (ranks.rank() == 0) recorder.modules = 0;
+            world.step();
+        }
+        if (ranks.rank() != 0) return;
+        modules = world.modules();
+        for (std::size_t plant = 0; plant < world.size(); ++plant) {
+            if (world.string(plant).empty())
+                held += world.string(plant).bytes() + world.interpretation(plant).geometry.internodes.capacity();
+            else
+                ++plants_held;
+        }
+    });
+    REQUIRE(all_are_silent(errors));
+    CHECK(recorder.modules == modules);
+    CHECK(plants_held == 4);
+    CHECK(held == 0);
+}
+
 TEST_CASE_METHOD(Spread, "ranks write the pieces of large frames together, with the bytes of one process",
                  "[simulation][ranks]") {
     write("other.l", other);
