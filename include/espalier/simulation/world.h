@@ -54,8 +54,8 @@ public:
     explicit World(const Scene& scene, const WorldOptions& options = {});
 
     /// The recorder sees the frames of every step from now on, and what it takes counts against the memory. It outlives
-    /// the steps; after the last of them call its finish(). The first rank has the recorders; on the others it gets the
-    /// pieces that this rank writes of large frames (Frame::piece).
+    /// the steps; after the last of them call its finish(). With ranks, before start(): the first rank has the
+    /// recorders; on the others it gets the pieces that this rank writes of large frames (Frame::piece).
     void attach(Recorder& recorder);
 
     /// Frame 0: every axiom, interpreted, exchanged and recorded.
