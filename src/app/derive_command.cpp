@@ -1,5 +1,6 @@
 #include "espalier/lsystem/derivation.h"
 #include "espalier/simulation/simulation.h"
+#include "espalier/simulation/staged_world.h"
 #include "espalier/turtle/interpretation.h"
 
 #include "base/excerpt.h"
@@ -252,7 +253,7 @@ struct Derived {
 };
 
 Derived derive_in_world(const Scene& scene, const DeriveArguments& arguments) {
-    World world(scene, allowed_memory(arguments.memory, arguments.model.file), arguments.files);
+    StagedWorld world(scene, allowed_memory(arguments.memory, arguments.model.file), arguments.files);
     print_warnings(world.warnings(), arguments.quiet);
     const std::size_t told = world.warnings().size();
     const std::size_t plant = number_of_plant(world, arguments.plant);

@@ -214,8 +214,8 @@ BlockOptions::BlockOptions(CLI::App& command) {
         command
             .add_option(
                 "--blocks", blocks_,
-                "divide the plants into N blocks, of which some are in memory while the others wait on disk, in "
-                "the output folder: for worlds larger than memory. Changes no byte of the timeline")
+                "divide the plants (of each rank) into N blocks, of which some are in memory while the others wait on "
+                "disk, in the output folder: for worlds larger than memory. Changes no byte of the timeline")
             ->check(CLI::Range(std::size_t{1}, most));
     command.add_option("--resident", resident_, "how many of the blocks are in memory at once; default: 1")
         ->check(CLI::Range(std::size_t{1}, most))

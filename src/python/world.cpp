@@ -1,5 +1,6 @@
 // Worlds and their frames.
 #include "espalier/simulation/simulation.h"
+#include "espalier/simulation/staged_world.h"
 
 #include "python/bindings.h"
 
@@ -14,7 +15,7 @@ namespace {
 struct BoundWorld : std::enable_shared_from_this<BoundWorld> {
     explicit BoundWorld(const Scene& scene) : world(scene, default_memory()) {}
 
-    World world;
+    StagedWorld world;
     std::atomic<bool> busy = false;
     bool started = false;
 };

@@ -58,9 +58,10 @@ TEST_CASE_METHOD(Launched, "mpiexec grows a scene as one process does, and only 
                  "[app][ranks]") {
     if (!has_ranks()) return;
     const std::string scene = GENERATE("stand.toml", "pieces.toml");
+    const std::string blocks = GENERATE("", " --blocks 2");
     REQUIRE(run("run " + scene + " --quiet --output alone").code == 0);
-    const Outcome outcome = launch(3, "run " + scene + " --output spread --threads 1");
-    INFO(outcome.err);
+    const Outcome outcome = launch(3, "run " + scene + " --output spread --threads 1" + blocks);
+    INFO(blocks << outcome.err);
     REQUIRE(outcome.code == 0);
     CHECK_THAT(outcome.out, Contains("40 of 40 steps"));
     CHECK(outcome.out.find("40 of 40 steps") == outcome.out.rfind("40 of 40 steps"));
@@ -71,6 +72,7 @@ TEST_CASE_METHOD(Launched, "mpiexec grows a scene as one process does, and only 
 TEST_CASE_METHOD(Launched, "a rank that is killed ends the run, and resume goes on with other ranks", "[app][ranks]") {
     if (!has_ranks()) return;
     const std::string scene = GENERATE("stand.toml", "pieces.toml");
+    const std::string blocks = GENERATE("", " --blocks 2");
     REQUIRE(run("run " + scene + " --quiet --output alone").code == 0);
     // The shell knows rank 1 by its variable, and kills it once there is a checkpoint.
     write("rank.sh",
@@ -81,7 +83,7 @@ TEST_CASE_METHOD(Launched, "a rank that is killed ends the run, and resume goes 
           "  kill -9 $process; wait $process\n"
           "else exec '" ESPALIER_PROGRAM "' \"$@\"; fi\n");
     const std::string command = "cd '" + path().string() + "' && " + mpiexec + "-n 2 sh rank.sh run " + scene +
-                                " --quiet --threads 1 --output again --checkpoint-every 1 >.out 2>.err";
+                                " --quiet --threads 1 --output again --checkpoint-every 1" + blocks + " >.out 2>.err";
     CHECK(code_of(std::system(command.c_str())) != 0);
     REQUIRE(fs::exists(path() / "again" / "checkpoint"));
     const Outcome resumed = launch(3, "resume again --quiet --threads 1");

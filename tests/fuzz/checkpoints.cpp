@@ -2,7 +2,7 @@
 // timeline. A world that was restored must bear two more steps.
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
-#include "espalier/simulation/world.h"
+#include "espalier/simulation/world_checkpoint.h"
 #include "espalier/timeline/timeline.h"
 
 #include "seeds_on_request.h"
@@ -27,23 +27,23 @@ std::shared_ptr<Printout> silence() {
 }
 
 void restore_world(const fuzz::SmallScene& small, const std::string& bytes) {
-    World world(small.scene(), memory, small.folder() / "files", silence());
+    World world(small.scene(), {.memory = memory, .files = small.folder() / "files", .printout = silence()});
     std::istringstream in(bytes);
-    world.restore(in);
+    WorldCheckpoint(world).restore(in);
     for (int step = 0; step < 2 && !world.at_end(); ++step) world.step();
 }
 
 std::string saved_world(const fuzz::SmallScene& small) {
-    World world(small.scene(), memory, small.folder() / "files", silence());
+    World world(small.scene(), {.memory = memory, .files = small.folder() / "files", .printout = silence()});
     world.start();
     world.step();
     std::ostringstream out;
-    world.save(out);
+    WorldCheckpoint(world).save(out);
     return out.str();
 }
 
 std::string saved_timeline(const fuzz::SmallScene& small) {
-    World world(small.scene(), memory, small.folder() / "files", silence());
+    World world(small.scene(), {.memory = memory, .files = small.folder() / "files", .printout = silence()});
     Timeline timeline(small.run_folder(), small.scene().timeline, 4, /*overwrite=*/true);
     world.attach(timeline);
     world.start();
@@ -57,7 +57,7 @@ std::string saved_timeline(const fuzz::SmallScene& small) {
 void restore_timeline(const fuzz::SmallScene& small, const std::string& bytes) {
     static const std::string rows = (saved_timeline(small), read_text(small.run_folder() / "statistics.csv"));
     write_text(small.run_folder() / "statistics.csv", rows);
-    World world(small.scene(), memory, small.folder() / "files", silence());
+    World world(small.scene(), {.memory = memory, .files = small.folder() / "files", .printout = silence()});
     Timeline timeline(small.run_folder(), small.scene().timeline, 4, bytes);
     world.attach(timeline);
     world.start();

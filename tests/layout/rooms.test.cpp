@@ -109,7 +109,7 @@ const std::map<std::string, std::vector<Room>> stations{
          {"plant", "scene"},
          {"spread", "plant"},
          {"world", "scene plant spread"},
-         {"run", "scene world"},
+         {"run", "scene plant world"},
      }},
     {"archive",
      {

@@ -1,5 +1,5 @@
 // A world that is saved and restored goes on as if nothing had happened.
-#include "espalier/simulation/world.h"
+#include "espalier/simulation/world_checkpoint.h"
 
 #include "catch.h"
 #include "temporary_folder.h"
@@ -75,9 +75,9 @@ bool same(const ModuleString& a, const ModuleString& b) {
     return same(a.letters, b.letters) && same(a.parameters, b.parameters) && same_lineage(a, b);
 }
 
-std::string saved(const World& world) {
+std::string saved(World& world) {
     std::ostringstream out;
-    world.save(out);
+    WorldCheckpoint(world).save(out);
     return out.str();
 }
 
@@ -89,7 +89,7 @@ TEST_CASE_METHOD(Saved, "a restored world goes on bit for bit", "[simulation]") 
     for (int step = 0; step < 7; ++step) through.step();
     World resumed(scene);
     std::istringstream in(saved(through));
-    resumed.restore(in);
+    WorldCheckpoint(resumed).restore(in);
     CHECK(resumed.steps_done() == 7);
     CHECK(resumed.last_step() == through.last_step());
     for (int step = 7; step < 12; ++step) {
@@ -116,7 +116,7 @@ TEST_CASE_METHOD(Saved, "a checkpoint that is cut short or of something else is 
     for (std::size_t size = 0; size < bytes.size(); size += 97) {
         World other(scene);
         std::istringstream in(bytes.substr(0, size));
-        CHECK_THROWS_AS(other.restore(in), std::runtime_error);
+        CHECK_THROWS_AS(WorldCheckpoint(other).restore(in), std::runtime_error);
     }
 }
 
@@ -138,7 +138,7 @@ TEST_CASE_METHOD(Saved, "a checkpoint whose strings no derivation could have lef
         World other(scene);
         std::istringstream in(checkpoint);
         try {
-            other.restore(in);
+            WorldCheckpoint(other).restore(in);
         } catch (const RunError& error) {
             return std::string(error.what());
         }

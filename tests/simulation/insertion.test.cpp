@@ -3,6 +3,7 @@
 
 #include "espalier/base/error.h"
 #include "espalier/simulation/simulation.h"
+#include "espalier/simulation/world_checkpoint.h"
 
 #include "catch.h"
 #include "temporary_folder.h"
@@ -88,8 +89,8 @@ TEST_CASE("a run with an insertion goes on from its checkpoint as if it had not 
     first.start();
     for (int step = 0; step < 3; ++step) first.step();
     std::stringstream checkpoint;
-    first.save(checkpoint);
-    second.restore(checkpoint);
+    WorldCheckpoint(first).save(checkpoint);
+    WorldCheckpoint(second).restore(checkpoint);
     while (!whole.at_end()) whole.step();
     while (!second.at_end()) second.step();
     CHECK(to_text(whole.string(0), whole.model(0).alphabet) == to_text(second.string(0), second.model(0).alphabet));

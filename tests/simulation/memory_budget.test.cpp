@@ -1,7 +1,7 @@
 // What counts against --memory: more than strings and drawings, and the same whoever counts when.
-#include "simulation/world/memory_budget.h"
+#include "simulation/plant/memory_budget.h"
 
-#include "espalier/simulation/world.h"
+#include "espalier/simulation/world_checkpoint.h"
 #include "espalier/timeline/timeline.h"
 
 #include "catch.h"
@@ -38,7 +38,7 @@ public:
                   const std::string& processes = "")
         : scene_(scene(folder_, model, processes)),
           timeline_(folder_.path() / "run", Settings::parse_toml(table, "scene.toml"), 1000),
-          world(scene_, memory) {
+          world(scene_, {.memory = memory}) {
         world.attach(counted_);
     }
 
@@ -112,8 +112,8 @@ TEST_CASE("a world that was saved runs out of memory where it would have without
     RecordedWorld interrupted(bush, "", memory), resumed(bush, "", memory);
     CHECK(refusal(interrupted.world, last).empty());
     std::stringstream checkpoint;
-    interrupted.world.save(checkpoint);
-    resumed.world.restore(checkpoint);
+    WorldCheckpoint(interrupted.world).save(checkpoint);
+    WorldCheckpoint(resumed.world).restore(checkpoint);
     CHECK(without_file(refusal(resumed.world)) == without_file(message));
     CHECK(resumed.world.steps_done() == last + 1);
 }

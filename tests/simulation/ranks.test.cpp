@@ -1,5 +1,6 @@
 // Worlds that several ranks grow together: the bytes of one that grows alone.
 #include "espalier/simulation/simulation.h"
+#include "espalier/simulation/world_checkpoint.h"
 
 #include "catch.h"
 #include "simulation/run/allowed_memory.h"
@@ -101,10 +102,10 @@ TEST_CASE_METHOD(Spread, "two roots on two ranks drink from one soil, whose bala
 
     std::array<double, 2> drunk_by{}, drunk{}, missing{}, balance{};  // of a rank's plant; of the soil that it knows
     const auto errors = on_ranks(2, [&](Ranks& ranks) {
-        World world(described, std::size_t(-1), {}, nullptr, &ranks);
+        World world(described, {.ranks = &ranks});
         const auto rank = static_cast<std::size_t>(ranks.rank());
         world.start();
-        const std::uint32_t own = world.modules_of(0) > 0 ? 0 : 1;
+        const std::uint32_t own = world.modules(0) > 0 ? 0 : 1;
         const auto statistic = [&](const std::string& name) {
             for (const Quantity& quantity : world.environment().statistics(own)) {
                 if (quantity.name == name) return quantity.value;
@@ -162,7 +163,7 @@ TEST_CASE_METHOD(Spread, "only queries that change answers elsewhere are sent", 
             "scene.toml", path());
         std::array<std::uint64_t, 2> bytes{};
         on_ranks(2, [&](Ranks& ranks) {
-            World world(described, std::size_t(-1), {}, nullptr, &ranks);
+            World world(described, {.ranks = &ranks});
             world.start();
             for (int step = 0; step < 8; ++step) world.step();
             bytes[static_cast<std::size_t>(ranks.rank())] = world.times().bytes;
@@ -192,7 +193,7 @@ TEST_CASE_METHOD(Spread, "the first rank gets the plants of others part by part,
     EveryThird recorder;
     std::array<std::vector<std::uint64_t>, 3> sent;
     const auto errors = on_ranks(3, [&](Ranks& ranks) {
-        World world(described, std::size_t(-1), {}, nullptr, &ranks);
+        World world(described, {.ranks = &ranks});
         if (ranks.rank() == 0) world.attach(recorder);
         world.start();
         for (int step = 1; step <= 8; ++step) {
@@ -212,6 +213,43 @@ TEST_CASE_METHOD(Spread, "the first rank gets the plants of others part by part,
     CHECK(recorder.parts.size() == 3 * 3 + 6);
     CHECK(sent[1][5] > 100 * sent[1][4]);  // step 6 against step 5
     CHECK(sent[1][5] > 100 * sent[1][6]);
+}
+
+TEST_CASE_METHOD(Spread, "the first rank frees what it has recorded of the plants of others", "[simulation][ranks]") {
+    class Recorded : public Recorder {
+    public:
+        bool reads_plants_at(int, bool) const override { return true; }
+        void record(const Frame& frame) override {
+            for (const PlantFrame& plant : frame.plants) modules += plant.string->size();
+        }
+        void finish() override {}
+
+        std::size_t modules = 0;
+    };
+    const Scene described = scene(light);
+    Recorded recorder;
+    std::size_t modules = 0, held = 0, plants_held = 0;
+    const auto errors = on_ranks(3, [&](Ranks& ranks) {
+        World world(described, {.ranks = &ranks});
+        if (ranks.rank() == 0) world.attach(recorder);
+        world.start();
+        for (int step = 1; step <= 6; ++step) {
+            if (ranks.rank() == 0) recorder.modules = 0;
+            world.step();
+        }
+        if (ranks.rank() != 0) return;
+        modules = world.modules();
+        for (std::size_t plant = 0; plant < world.size(); ++plant) {
+            if (world.string(plant).empty())
+                held += world.string(plant).bytes() + world.interpretation(plant).geometry.internodes.capacity();
+            else
+                ++plants_held;
+        }
+    });
+    REQUIRE(all_are_silent(errors));
+    CHECK(recorder.modules == modules);
+    CHECK(plants_held == 4);
+    CHECK(held == 0);
 }
 
 TEST_CASE_METHOD(Spread, "ranks write the pieces of large frames together, with the bytes of one process",
@@ -396,11 +434,11 @@ TEST_CASE_METHOD(Spread, "plants move to ranks that have less to do, and no byte
 
     std::array<std::size_t, 2> modules{};
     const std::vector<std::string> errors = on_ranks(2, [&](Ranks& ranks) {
-        World world(described, std::size_t(-1), {}, nullptr, &ranks);
+        World world(described, {.ranks = &ranks});
         world.start();
         for (int step = 0; step < 9; ++step) {
             world.step();
-            world.prepare_save(path());
+            WorldCheckpoint(world).prepare(path());
         }
         for (std::size_t plant = 0; plant < world.size(); ++plant) {
             modules[static_cast<std::size_t>(ranks.rank())] += world.string(plant).size();

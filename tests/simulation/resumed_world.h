@@ -1,7 +1,7 @@
 // A world and another that goes on from its checkpoint.
 #pragma once
 
-#include "espalier/simulation/world.h"
+#include "espalier/simulation/world_checkpoint.h"
 
 #include <sstream>
 
@@ -13,8 +13,8 @@ struct ResumedWorld {
         through.start();
         for (int done = 0; done < step; ++done) through.step();
         std::stringstream saved;
-        through.save(saved);
-        resumed.restore(saved);
+        espalier::WorldCheckpoint(through).save(saved);
+        espalier::WorldCheckpoint(resumed).restore(saved);
     }
     void step() {
         through.step();

@@ -1,5 +1,6 @@
 // Geometry stages change what is recorded of a plant and what light falls on, and nothing else.
 #include "espalier/simulation/simulation.h"
+#include "espalier/simulation/world_checkpoint.h"
 
 #include "catch.h"
 #include "recorded_files.h"
@@ -141,10 +142,10 @@ TEST_CASE_METHOD(Staged, "plants with stages go on bit for bit where they were s
     through.start();
     for (int step = 0; step < 6; ++step) through.step();
     std::ostringstream saved;
-    through.save(saved);
+    WorldCheckpoint(through).save(saved);
     World resumed(scene(stages));
     std::istringstream in(saved.str());
-    resumed.restore(in);
+    WorldCheckpoint(resumed).restore(in);
     for (int step = 6; step < 10; ++step) {
         through.step();
         resumed.step();

@@ -150,7 +150,7 @@ TEST_CASE_METHOD(Worlds, "of several plants that fail the first is named, whoeve
 }
 
 TEST_CASE_METHOD(Worlds, "strings that would outgrow the memory end the run and name the step", "[simulation]") {
-    World world(scene(doubling, "[simulation]\nsteps = 60\n"), 64 << 20);
+    World world(scene(doubling, "[simulation]\nsteps = 60\n"), {.memory = 64 << 20});
     world.start();
     const auto grow = [&] {
         while (world.steps_done() < 60) world.step();
@@ -200,7 +200,7 @@ TEST_CASE_METHOD(Worlds, "plants that pass on memory while they grow large and s
     const std::size_t memory = GENERATE(std::size_t{1} << 40, std::size_t{100} << 20);  // plentiful, and not always
     const int threads = GENERATE(1, 4);
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-    World stand(scene(model, plants), memory);
+    World stand(scene(model, plants), {.memory = memory});
     std::vector<std::unique_ptr<World>> alone;
     for (const int size : sizes) {
         alone.push_back(std::make_unique<World>(
@@ -232,7 +232,7 @@ TEST_CASE_METHOD(Worlds,
                                           static_cast<std::size_t>(threads));
         World world(scene(model, "[[plant]]\nmodel = 'plant.l'\nname = 'giant'\ndefine = { SIZE = 2 }\n",
                           "name = 'herb'\ngrid = { columns = 300, spacing = 1 }\n"),
-                    std::size_t{32} << 20);
+                    {.memory = std::size_t{32} << 20});
         try {
             walk(world, 9);
         } catch (const RunError& error) {
@@ -246,7 +246,8 @@ TEST_CASE_METHOD(Worlds,
 
 TEST_CASE_METHOD(Worlds, "what is drawn of a string counts against the memory, too", "[simulation]") {
     const auto steps_within_64_mib = [&](const std::string& rule) {
-        World world(scene("lsystem: 1\nderivation length: 60\naxiom: " + rule + "\nendlsystem\n"), 64 << 20);
+        World world(scene("lsystem: 1\nderivation length: 60\naxiom: " + rule + "\nendlsystem\n"),
+                    {.memory = 64 << 20});
         CHECK_THROWS_WITH(walk(world, 60), Contains("step ") && Contains("memory"));
         return world.steps_done();
     };
@@ -263,7 +264,7 @@ TEST_CASE_METHOD(Worlds, "what counts against the memory depends on neither the 
     const auto message = [&](int threads, std::size_t frames) {
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                           static_cast<std::size_t>(threads));
-        World world(scene(model), std::size_t{160} << 20);
+        World world(scene(model), {.memory = std::size_t{160} << 20});
         std::vector<std::vector<PlantFrame>> kept;
         const auto keep = [&] {
             if (frames == 0) return;
@@ -291,13 +292,13 @@ TEST_CASE_METHOD(Worlds, "plants that fit one by one but not together end the ru
     const std::string model =
         "#define SIZE 1\nlsystem: 1\nderivation length: 60\naxiom: A(SIZE)\n"
         "A(n) : n == 2 --> F(1)F(1)\nA(n) --> F(1)\nF(l) --> F(l)F(l)\nendlsystem\n";
-    World alone(scene(model, "[simulation]\nsteps = 14\n"), 64 << 20);
+    World alone(scene(model, "[simulation]\nsteps = 14\n"), {.memory = 64 << 20});
     CHECK_NOTHROW(walk(alone, 14));
     World stand(scene(model,
                       "[simulation]\nsteps = 14\n"
                       "[[plant]]\nmodel = 'plant.l'\nname = 'oak'\ndefine = { SIZE = 2 }\n"
                       "[[plant]]\nmodel = 'plant.l'\nname = 'ash'\ngrid = { columns = 120, spacing = 1 }\n"),
-                64 << 20);
+                {.memory = 64 << 20});
     CHECK_THROWS_WITH(walk(stand, 14), Contains("step ") && Contains("'oak'") && Contains("--memory"));
     CHECK(stand.steps_done() < 14);
 }
@@ -321,7 +322,7 @@ TEST_CASE_METHOD(Worlds, "plants that are many outgrow the memory together befor
     const std::string square = "lsystem: 1\nderivation length: 9\naxiom: A\nA --> AAAAAAAAAAAAAAAA\nendlsystem\n";
     const Scene many = scene(square, "", "name = 'square'\ngrid = { columns = 200, spacing = 1 }\n");
     constexpr std::size_t memory = 8 << 20;
-    World world(many, memory);
+    World world(many, {.memory = memory});
     CHECK_THROWS_WITH(walk(world, 9), Contains("step 3: 51200 modules grow beyond the 7 MiB") &&
                                           Contains("'square-1' with 256 modules, most of them A"));
     std::size_t held = 0;

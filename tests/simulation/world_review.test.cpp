@@ -1,6 +1,6 @@
 // What a world finds odd about its scene: processes that nothing asks, models of which nothing is drawn.
 #include "espalier/simulation/simulation.h"
-#include "espalier/simulation/world.h"
+#include "espalier/simulation/world_checkpoint.h"
 
 #include "catch.h"
 #include "simulation/thread_ranks.h"
@@ -160,7 +160,7 @@ TEST_CASE_METHOD(Scenes, "ranks know together what was drawn and asked", "[simul
     }
     const Scene described = scene(text + shade);
     const auto errors = on_ranks(4, [&](Ranks& ranks) {
-        World world(described, std::size_t(-1), {}, nullptr, &ranks);
+        World world(described, {.ranks = &ranks});
         world.start();
         while (!world.at_end()) world.step();
         world.review_run();
@@ -181,9 +181,9 @@ TEST_CASE_METHOD(Scenes, "what only a whole run shows is not told of a run that 
     first.start();
     first.step();
     std::stringstream saved;
-    first.save(saved);
+    WorldCheckpoint(first).save(saved);
     World second(described);
-    second.restore(saved);
+    WorldCheckpoint(second).restore(saved);
     while (!second.at_end()) second.step();
     second.review_run();
     CHECK(second.warnings().empty());

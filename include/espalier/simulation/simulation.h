@@ -39,8 +39,8 @@ struct RunOptions {
     bool resume = false;     ///< goes on from the checkpoint in `output`
     std::size_t memory = 0;  ///< bytes; 0: default_memory()
     std::size_t disk = 0;    ///< bytes that may be written; 0: default_disk
-    /// The plants in so many blocks, in the order of the scene, of which `resident` are in memory at once while the
-    /// others wait on disk; 0: all are in memory. Changes no byte of the timeline.
+    /// The plants of each rank in so many blocks, in the order of the scene, of which `resident` are in memory at once
+    /// while the others wait on disk; 0: all are in memory. Changes no byte of the timeline.
     std::size_t blocks = 0, resident = 1;
     /// Seconds that a process may take to answer the queries of one step; 0: any time. A process cannot be stopped:
     /// `expired` is called on another thread, with what to tell the user, after run.json says how the run ended. It is

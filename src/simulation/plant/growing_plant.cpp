@@ -41,6 +41,7 @@ GrowingPlant::GrowingPlant(std::uint32_t plant, const Plant& from, std::shared_p
 
 void GrowingPlant::count_births() {
     born = 0;
+    births_before = unknown;
     is_numbered = !string->has_lineage();
     if (is_numbered) return;
     const auto step = static_cast<std::uint32_t>(derivation.steps_done());
@@ -48,7 +49,7 @@ void GrowingPlant::count_births() {
 }
 
 void GrowingPlant::number_births() {
-    if (is_numbered) return;
+    if (is_numbered || births_before == unknown) return;
     if (numbers)
         numbers->number(*string, births_before);
     else if (born > 0)
@@ -67,11 +68,15 @@ void GrowingPlant::note_received() {
     is_staged_ = false;
 }
 
-void GrowingPlant::give_away() {
-    is_here = false;
+void GrowingPlant::become_remote() {
+    is_local = false;
     memory = {};
     born = 0;
     is_numbered = true;
+    free_received();
+}
+
+void GrowingPlant::free_received() {
     hold(std::make_shared<const ModuleString>(), std::make_shared<const Interpretation>());
     note_received();
 }

@@ -42,7 +42,7 @@ public:
     void note_derived();
     /// Notes how many modules were born in this step.
     void count_births();
-    /// Numbers those in its string, behind the `births_before` of other plants and steps.
+    /// Numbers those in its string, if `births_before` is known.
     void number_births();
 
     // Hints that a stage will soon come to this plant: of itself, then of its values, then of the columns in them.
@@ -62,9 +62,11 @@ public:
     PlantView view() const { return {number, &model(), &*string, &*interpretation, asks_, &drawn().geometry}; }
     /// After `string` and `interpretation` came from the rank that holds the plant.
     void note_received();
+    /// Frees them, but for what frames still read.
+    void free_received();
     /// Another rank holds it from now on: only its description stays.
-    void give_away();
-    /// Has these values in place of its own, of which no memory stays: of a plant that waits elsewhere, or was there.
+    void become_remote();
+    /// Frees its values and has these instead: of a plant that waits on disk, or comes from there.
     void hold(std::shared_ptr<const ModuleString> string, std::shared_ptr<const Interpretation> interpretation);
     PlantFrame frame(std::vector<Quantity> quantities) const;
 
@@ -75,13 +77,14 @@ public:
     int length = 0;
     bool stopped = false;
     bool is_numbered = true;  ///< the string came with its numbers
-    bool is_here = true;      ///< false: another rank holds it, and what it sent of the plant is all there is
+    bool is_local = true;     ///< false: another rank holds it, and what it sent of the plant is all there is
     const Plant* description;
     Derivation derivation;
     std::size_t modules_before = 0;
     Reusable<ModuleString> string;
     Reusable<Interpretation> interpretation;
-    std::uint64_t births_before = 0;                ///< modules of the run that were born before those of this step
+    static constexpr std::uint64_t unknown = std::uint64_t(-1);
+    std::uint64_t births_before = unknown;          ///< modules of the run that were born before those of this step
     std::unique_ptr<lsystem::KeptNumbers> numbers;  ///< of a plant that grows anew in every step; else null
     std::uint32_t number;
     /// For light and recorders: the interpretation as the geometry stages leave it.

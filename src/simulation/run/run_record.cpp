@@ -27,7 +27,7 @@ Json plants_json(const World& world) {
                           {"model", world.model(i).path.string()},
                           {"arithmetic", name_of(world.model(i).arithmetic)},
                           {"stream", *plant.stream},
-                          {"modules", world.modules_of(i)}});
+                          {"modules", world.modules(i)}});
     }
     return plants;
 }

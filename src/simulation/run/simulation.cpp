@@ -2,10 +2,12 @@
 
 #include "espalier/base/file.h"
 #include "espalier/base/stop.h"
+#include "espalier/simulation/world_checkpoint.h"
 #include "espalier/timeline/timeline.h"
 
 #include "base/bytes.h"
 #include "base/reason.h"
+#include "simulation/plant/memory_budget.h"
 #include "simulation/run/disk_budget.h"
 #include "simulation/run/run_record.h"
 #include "simulation/run/run_standing.h"
@@ -13,7 +15,6 @@
 #include "simulation/run/written_files.h"
 #include "simulation/scene/expressions.h"
 #include "simulation/world/answer_watch.h"
-#include "simulation/world/memory_budget.h"
 
 #include <fmt/format.h>
 
@@ -33,24 +34,15 @@ constexpr std::uint64_t most_checkpoint_bytes = std::uint64_t{1} << 40;
 class Run {
 public:
     Run(const Scene& scene, const RunOptions& options)
-        : scene_(scene),
-          options_(options),
-          world_(scene, options.memory, files_folder(options), nullptr, options.ranks),
-          record_(world_, options) {
+        : scene_(scene), options_(options), world_(scene, world_options(options)), record_(world_, options) {
         warn();
         const bool records = is_first(options.ranks);
-        bool reads_plants = false;
-        if (options.blocks > 0) together(options.ranks, [&] { world_.require_waiting(); });
         together(options.ranks, [&] {
             if (!records) return help_to_record();
             if (!options.output.empty()) open_timeline();
             if (options.recorder) world_.attach(*options.recorder);
-            reads_plants =
-                (timeline_ && timeline_->reads_plants()) || (options.recorder && options.recorder->reads_plants());
         });
-        if (options.blocks > 0) keep_on_disk();
         if (options.resume) restore();
-        if (!any(options.ranks, reads_plants)) world_.skip_geometry();
     }
 
     RunResult walk() {
@@ -84,6 +76,18 @@ private:
         return options.output.empty() ? std::filesystem::path() : files_folder_of(options.output);
     }
 
+    static WorldOptions world_options(const RunOptions& options) {
+        WorldOptions result;
+        result.memory = options.memory;
+        result.files = files_folder(options);
+        result.ranks = options.ranks;
+        result.is_looked_at = false;
+        if (options.blocks == 0) return result;
+        const auto folder = options.output.empty() ? std::filesystem::temp_directory_path() : options.output;
+        result.blocks = {folder, options.blocks, options.resident};
+        return result;
+    }
+
     void review() {
         world_.review_run();
         warn();
@@ -96,13 +100,6 @@ private:
             options_.warn(explained({all.begin() + static_cast<std::ptrdiff_t>(warned_), all.end()}, scene_.computed));
         }
         warned_ = all.size();
-    }
-
-    void keep_on_disk() {
-        const std::size_t in_a_block = (world_.size() + options_.blocks - 1) / options_.blocks;
-        const std::filesystem::path folder =
-            options_.output.empty() ? std::filesystem::temp_directory_path() : options_.output;
-        world_.keep_on_disk(folder, std::max<std::size_t>(in_a_block, 1) * options_.resident);
     }
 
     // A mistake in the scene's [timeline] should not leave an empty folder behind.
@@ -137,7 +134,7 @@ private:
     void help_to_record() {
         if (options_.output.empty()) return;
         of_pieces_ = recorder_of_pieces(options_.output, scene_.timeline, world_.last_step());
-        if (of_pieces_) world_.attach_for_pieces(*of_pieces_);
+        if (of_pieces_) world_.attach(*of_pieces_);
     }
 
     void begin_recording() {
@@ -167,7 +164,7 @@ private:
             get_text(in, most_checkpoint_bytes);  // of the timeline, which is resumed already
             record_.resume(timeline_ ? &*timeline_ : nullptr, in);
         });
-        world_.restore(in);
+        checkpoint_.restore(in);
         together(options_.ranks, [&] {
             if (timeline_) begin_recording();
         });
@@ -175,7 +172,7 @@ private:
 
     void write_checkpoint() {
         const double begin = seconds();
-        world_.prepare_save(options_.output);
+        checkpoint_.prepare(options_.output);
         together(options_.ranks, [&] {
             if (timeline_) write_own_checkpoint();
         });
@@ -197,7 +194,7 @@ private:
         put(out, signature);
         put_text(out, timeline);
         record_.save(out);
-        world_.save(out);
+        checkpoint_.save(out);
         return out.flush().good();
     }
 
@@ -256,7 +253,7 @@ private:
         return static_cast<double>(bytes_of_checkpoint()) / bytes_per_second;
     }
 
-    std::size_t bytes_of_checkpoint() const { return world_.bytes_of_strings() + world_.environment().memory_kept(); }
+    std::size_t bytes_of_checkpoint() const { return checkpoint_.bytes() + world_.environment().memory_kept(); }
 
     void check_disk() {
         if (!any(options_.ranks, disk_ && disk_->is_spent())) return;
@@ -319,6 +316,7 @@ private:
     const Scene& scene_;
     const RunOptions& options_;
     World world_;
+    WorldCheckpoint checkpoint_{world_};
     RunRecord record_;
     std::optional<Timeline> timeline_;
     std::unique_ptr<Recorder> of_pieces_;  ///< of a timeline that another rank has

@@ -90,7 +90,7 @@ void insert_at(Column<T>& column, std::size_t at, std::span<const T> values) {
 Insertion read_insertion(const std::string& text, const Place& place) {
     Insertion insertion;
     insertion.place = place;
-    // Symbols may contain `@` and `:`; the step is a number behind the last `@` that has one.
+    // Symbols may contain `@` and `:`; the step is a number after the last `@` that has one.
     for (std::size_t at = text.rfind('@'); at != std::string::npos && at > 0; at = text.rfind('@', at - 1)) {
         const std::size_t end = std::min(text.find(':', at), text.size());
         const auto step = whole_text_as<int>(std::string_view(text).substr(at + 1, end - at - 1));

@@ -60,7 +60,7 @@ std::vector<int> ranks_of(const std::vector<std::size_t>& blocks, const std::vec
     for (const auto& [block, weight] : weight_of_block) {
         const auto ranks_left = static_cast<std::size_t>(ranks - rank);
         const bool is_enough = held + weight / 2 > left / static_cast<double>(ranks_left);
-        const bool are_needed = blocks_left < ranks_left;  // each of the ranks behind gets one
+        const bool are_needed = blocks_left < ranks_left;  // each of the ranks after this one gets one
         if (ranks_left > 1 && rank_of_block.size() > 0 && held > 0 && (is_enough || are_needed)) {
             left -= held;
             held = 0;

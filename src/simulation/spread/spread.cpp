@@ -67,7 +67,7 @@ Spread::Spread(Ranks& ranks, const Scene& scene, const Environment& environment,
 }
 
 void Spread::mark(std::span<GrowingPlant> plants) const {
-    for (GrowingPlant& plant : plants) plant.is_here = rank_of_[plant.number] == ranks_.rank();
+    for (GrowingPlant& plant : plants) plant.is_local = rank_of_[plant.number] == ranks_.rank();
 }
 
 std::vector<std::string> Spread::notes(const Environment& environment) const {
@@ -80,20 +80,6 @@ std::vector<std::string> Spread::notes(const Environment& environment) const {
                                                                               : "answers the queries of all plants"));
     }
     return notes;
-}
-
-Ends Spread::agreed(const Ends& own) {
-    std::ostringstream out;
-    put(out, own);
-    Ends all;
-    for (const std::string& bytes : from_all(&ranks_, out.str())) {
-        std::istringstream in(bytes);
-        const auto one = get<Ends>(in);
-        all.longest = std::max(all.longest, one.longest);
-        all.stopped = all.stopped || one.stopped;
-        all.modules += one.modules;
-    }
-    return all;
 }
 
 std::vector<std::string> Spread::traded(const std::function<void(std::ostream& out, int rank)>& write) {
@@ -109,19 +95,19 @@ std::vector<std::string> Spread::traded(const std::function<void(std::ostream& o
     return ranks_.trade(std::move(to_each));
 }
 
-Spread::Asked Spread::asked(std::span<const GrowingPlant> plants, Environment& environment, int step) const {
+Spread::Asked Spread::asked(PlantSet& plants, Environment& environment, int step) const {
     Asked asked;
-    asked.reaches.resize(plants.size());
-    asked.goes_everywhere.resize(plants.size());
+    asked.reaches.resize(plants.all().size());
+    asked.goes_everywhere.resize(plants.all().size());
     std::map<std::size_t, std::vector<Box>> of_blocks;
-    for (const GrowingPlant& plant : plants) {
-        if (!plant.is_here) continue;
+    for (const GrowingPlant& plant : plants.all()) {
+        if (!plant.is_local) continue;
         std::vector<Box>& places = of_blocks[blocks_[plant.number]];
         std::vector<Box>& reaches = asked.reaches[plant.number];
         places.resize(spreadings_.size());
         reaches.resize(spreadings_.size());
         const PlantView view = plant.view();
-        for (const Query& query : plant.interpretation->queries) {
+        for (const Query& query : plants.queries_of(plant)) {
             const std::optional<std::size_t> process = environment.process_of(query, view, step);
             if (!process) continue;
             places[*process].add(query.pose.position);
@@ -160,11 +146,11 @@ bool Spread::may_matter(const GrowingPlant& plant, const Asked& asked, const Pla
     });
 }
 
-void Spread::select(const GrowingPlant& plant, Environment& environment, int step, const Places& places, bool sees_all,
-                    std::vector<const Query*>& selected) const {
+void Spread::select(const GrowingPlant& plant, std::span<const Query> queries, Environment& environment, int step,
+                    const Places& places, bool sees_all, std::vector<const Query*>& selected) const {
     selected.clear();
     const PlantView view = plant.view();
-    for (const Query& query : plant.interpretation->queries) {
+    for (const Query& query : queries) {
         const std::optional<std::size_t> process = environment.process_of(query, view, step);
         if (!process) continue;
         bool is_needed = sees_all || spreadings_[*process] != Spreading::reach;
@@ -178,26 +164,27 @@ void Spread::select(const GrowingPlant& plant, Environment& environment, int ste
     }
 }
 
-void Spread::put_shared(std::ostream& out, std::span<const GrowingPlant> plants, Environment& environment, int step,
-                        const Asked& asked, const Places& places, bool sees_all) const {
+void Spread::put_shared(std::ostream& out, PlantSet& plants, Environment& environment, int step, const Asked& asked,
+                        const Places& places, bool sees_all) const {
     std::vector<const Query*> selected;
-    for (const GrowingPlant& plant : plants) {
-        if (!plant.is_here) continue;
+    for (const GrowingPlant& plant : plants.all()) {
+        if (!plant.is_local) continue;
         if (sends_plants_) {
             put(out, plant.number);
             put_plant(out, plant);
             continue;
         }
         if (!sees_all && !may_matter(plant, asked, places)) continue;
-        select(plant, environment, step, places, sees_all, selected);
+        select(plant, plants.queries_of(plant), environment, step, places, sees_all, selected);
         if (selected.empty()) continue;
         put(out, plant.number);
         put_queries(out, selected);
     }
 }
 
-void Spread::share(std::span<GrowingPlant> plants, Environment& environment, int step, bool first_sees_all) {
-    forget(plants);
+void Spread::share(PlantSet& plants, Environment& environment, int step, bool first_sees_all) {
+    const std::span<GrowingPlant> all = plants.all();
+    forget(all);
     Asked own;
     together(&ranks_, [&] { own = asked(plants, environment, step); });
     const std::vector<Places> places = places_of_all(own.places);
@@ -207,28 +194,32 @@ void Spread::share(std::span<GrowingPlant> plants, Environment& environment, int
     });
     for_received(received, [&](std::uint32_t number, std::istream& in) {
         if (sends_plants_)
-            get_plant(in, plants[number], step);
+            get_plant(in, all[number], step);
         else
-            get_queries(in, plants[number]);
+            get_queries(in, all[number]);
     });
 }
 
-void Spread::deal(std::span<const std::span<GrowingPlant>> to_each, const Environment& environment, int step) {
-    const auto plants_of = [&](int rank) {
+void Spread::distribute(PlantSet& plants, std::span<const PlantSet::Part> to_each, const Environment& environment,
+                        int step) {
+    const auto part_of = [&](int rank) {
         const auto at = static_cast<std::size_t>(rank);
-        return at < to_each.size() ? to_each[at] : std::span<GrowingPlant>();
+        return at < to_each.size() ? to_each[at] : PlantSet::Part();
     };
     const std::vector<std::string> received = traded([&](std::ostream& out, int rank) {
-        for (const GrowingPlant& plant : plants_of(rank)) {
-            if (!plant.is_here) continue;
+        const PlantSet::Part part = part_of(rank);
+        plants.show(std::span(&part, 1), environment, step);
+        for (const GrowingPlant& plant : part) {
+            if (!plant.is_local) continue;
             put(out, plant.number);
             std::vector<double> values;
             for (const Quantity& quantity : environment.statistics(plant.number)) values.push_back(quantity.value);
             put_column(out, values);
             if (!sends_plants_) put_plant(out, plant);
         }
+        plants.hide();
     });
-    const std::span<GrowingPlant> own = plants_of(ranks_.rank());
+    const PlantSet::Part own = part_of(ranks_.rank());
     for_received(received, [&](std::uint32_t number, std::istream& in) {
         std::vector<double> values;
         get_column(in, values);
@@ -239,33 +230,31 @@ void Spread::deal(std::span<const std::span<GrowingPlant>> to_each, const Enviro
 }
 
 std::vector<Quantity> Spread::statistics(const Environment& environment, const GrowingPlant& plant) const {
-    return plant.is_here ? environment.statistics(plant.number) : statistics_[plant.number];
+    return plant.is_local ? environment.statistics(plant.number) : statistics_[plant.number];
 }
 
 void Spread::forget(std::span<GrowingPlant> plants) {
     for (GrowingPlant& plant : plants) {
         statistics_[plant.number] = {};
-        if (plant.is_here || (plant.string->empty() && !plant.interpretation->asks())) continue;
-        plant.string.for_writing().clear();
-        plant.interpretation.for_writing().clear();
-        plant.note_received();
+        if (plant.is_local || (plant.string->empty() && !plant.interpretation->asks())) continue;
+        plant.free_received();
     }
 }
 
-std::vector<std::string> Spread::states(std::span<const GrowingPlant> plants) {
+std::vector<std::string> Spread::states(PlantSet& plants, PlantSet::Part part) {
     const std::vector<std::string> received = traded([&](std::ostream& out, int rank) {
         if (rank != 0) return;
-        for (const GrowingPlant& plant : plants) {
-            if (!plant.is_here) continue;
+        for (GrowingPlant& plant : part) {
+            if (!plant.is_local) continue;
             std::ostringstream state;
-            put_state(state, plant);
+            plants.put_state(state, plant);
             put(out, plant.number);
             put_text(out, state.str());
         }
     });
-    std::vector<std::string> states(plants.size());
+    std::vector<std::string> states(part.size());
     for_received(received, [&](std::uint32_t number, std::istream& in) {
-        states[number - plants.front().number] = get_text(in, std::numeric_limits<std::uint64_t>::max());
+        states[number - part.front().number] = get_text(in, std::numeric_limits<std::uint64_t>::max());
     });
     return states;
 }
@@ -274,7 +263,7 @@ std::vector<std::string> Spread::states(std::span<const GrowingPlant> plants) {
 std::vector<double> Spread::weights_of(std::span<const GrowingPlant> plants, double seconds) {
     double modules = 0;
     for (const GrowingPlant& plant : plants) {
-        if (plant.is_here) modules += static_cast<double>(plant.modules);
+        if (plant.is_local) modules += static_cast<double>(plant.modules);
     }
     return of_each(plants, [&](const GrowingPlant& plant) {
         return seconds * static_cast<double>(plant.modules) / std::max(modules, 1.0);
@@ -285,18 +274,19 @@ std::vector<double> Spread::of_each(std::span<const GrowingPlant> plants,
                                     const std::function<double(const GrowingPlant&)>& of) {
     std::ostringstream out;
     for (const GrowingPlant& plant : plants) {
-        if (!plant.is_here) continue;
+        if (!plant.is_local) continue;
         put(out, plant.number);
         put(out, of(plant));
     }
     std::vector<double> values(plants.size());
-    for_received(from_all(&ranks_, out.str()),
-                 [&](std::uint32_t number, std::istream& in) { values[number] = get<double>(in); });
+    for_received(from_all(&ranks_, out.str()), [&](std::uint32_t number, std::istream& in) {
+        values[number - plants.front().number] = get<double>(in);
+    });
     return values;
 }
 
-void Spread::balance(std::span<GrowingPlant> plants, double seconds, std::size_t memory) {
-    const std::vector<double> weights = weights_of(plants, seconds);
+void Spread::balance(PlantSet& plants, double seconds, std::size_t memory) {
+    const std::vector<double> weights = weights_of(plants.all(), seconds);
     const auto loads = [&](const std::vector<int>& rank_of) {
         std::vector<double> sums(static_cast<std::size_t>(ranks_.count()));
         for (std::size_t plant = 0; plant < weights.size(); ++plant) {
@@ -313,23 +303,25 @@ void Spread::balance(std::span<GrowingPlant> plants, double seconds, std::size_t
     if (heaviest(better) < heaviest(rank_of_)) move(plants, better, memory);
 }
 
-void Spread::move(std::span<GrowingPlant> plants, const std::vector<int>& to, std::size_t memory) {
+void Spread::move(PlantSet& plants, const std::vector<int>& to, std::size_t memory) {
+    const std::span<GrowingPlant> all = plants.all();
     const std::vector<std::string> received = traded([&](std::ostream& out, int rank) {
-        for (const GrowingPlant& plant : plants) {
-            if (!plant.is_here || to[plant.number] != rank) continue;
+        for (GrowingPlant& plant : all) {
+            if (!plant.is_local || to[plant.number] != rank) continue;
             put(out, plant.number);
-            put_state(out, plant);
+            plants.put_state(out, plant);
         }
     });
     rank_of_ = to;
-    forget(plants);
-    for (GrowingPlant& plant : plants) {
-        if (plant.is_here && to[plant.number] != ranks_.rank()) plant.give_away();
+    forget(all);
+    for (GrowingPlant& plant : all) {
+        if (plant.is_local && to[plant.number] != ranks_.rank()) plant.become_remote();
     }
     together(&ranks_, [&] {
         for_received(received, [&](std::uint32_t number, std::istream& in) {
-            get_state(in, plants[number], memory);
-            plants[number].is_here = true;
+            get_state(in, all[number], memory);
+            all[number].is_local = true;
+            plants.take_restored(all[number]);
         });
     });
 }

@@ -2,6 +2,9 @@
 #include "base/text.h"
 #include "simulation/scene/expressions.h"
 #include "simulation/scene/scene_keyframes.h"
+#include "simulation/spread/plants_in_memory.h"
+#include "simulation/spread/plants_on_disk.h"
+#include "simulation/spread/plants_on_ranks.h"
 #include "simulation/world/world_state.h"
 #include "turtle/asking.h"
 
@@ -43,6 +46,14 @@ Scene with_defaults(Scene scene) {
     return scene;
 }
 
+std::vector<std::string> fields_read(const std::vector<GrowingPlant>& plants) {
+    std::set<std::string> names;
+    for (const GrowingPlant& plant : plants) {
+        for (std::string& name : fields_read_by(plant.model())) names.insert(std::move(name));
+    }
+    return {names.begin(), names.end()};
+}
+
 }  // namespace
 
 std::filesystem::path folder_with(const Model& model) {
@@ -50,23 +61,44 @@ std::filesystem::path folder_with(const Model& model) {
     return folder.empty() ? "." : folder;
 }
 
-World::State::State(const Scene& described, std::size_t bytes, const std::filesystem::path& files,
-                    std::shared_ptr<Printout> prints, Ranks* ranks)
-    : printout(prints ? std::move(prints) : std::make_shared<Printout>()),
-      scene(with_defaults(described)),
-      budget(bytes),
-      memory(share_memory(bytes, 0).plants) {
+World::State::State(const Scene& described, const WorldOptions& options)
+    : scene(with_defaults(described)),
+      printout(options.printout ? options.printout : std::make_shared<Printout>()),
+      ranks(options.ranks),
+      budget(options.memory),
+      memory(share_memory(options.memory, 0).plants),
+      recording(options.ranks),
+      is_looked_at(options.is_looked_at) {
     make_environment();
     share_out_memory();
-    make_plants(files);
-    find_fields_read();
-    warn_of_unasked();
+    std::vector<GrowingPlant> made = make_plants(options.files);
+    fields.names = fields_read(made);
+    review.warn_of_unasked(scene, *environment, fields.names);
+    place(std::move(made), options);
+}
+
+// Where the plants are is decided here, and only here.
+void World::State::place(std::vector<GrowingPlant> made, const WorldOptions& options) {
+    if (const auto& blocks = options.blocks) {
+        require_waiting();
+        plants =
+            std::make_unique<PlantsOnDisk>(std::move(made), blocks->folder, blocks->count, blocks->resident, memory);
+    } else {
+        plants = std::make_unique<PlantsInMemory>(std::move(made));
+    }
     set_lengths();
     if (!ranks) return;
-    spread = std::make_unique<Spread>(*ranks, scene, *environment, fields_read);
-    spread->mark(plants);
-    for (const std::string& note : spread->notes(*environment)) {
-        warnings.push_back({Diagnostic::Severity::warning, Place(), note, ""});
+    auto spread = std::make_unique<Spread>(*ranks, scene, *environment, fields.names);
+    for (const std::string& note : spread->notes(*environment)) review.warn(note);
+    plants = std::make_unique<PlantsOnRanks>(std::move(plants), std::move(spread), memory);
+}
+
+void World::State::require_waiting() const {
+    for (std::size_t process = 0; process < environment->size(); ++process) {
+        const Spreading spreading = environment->spreading(process);
+        if (spreading == Spreading::reach || spreading == Spreading::queries) continue;
+        throw UserError(fmt::format("process '{}' reads whole plants, so none can wait on disk; run without --blocks",
+                                    environment->name(process)));
     }
 }
 
@@ -82,7 +114,7 @@ void World::State::share_out_memory() {
 void World::State::make_environment() {
     const SceneEnvironment& described = scene.environment;
     const auto count = static_cast<std::uint32_t>(scene.plants.size());
-    const EnvironmentContext context{"", scene.domain, scene.seed, count, budget / 2, &warnings};
+    const EnvironmentContext context{"", scene.domain, scene.seed, count, budget / 2, &review.warnings};
     const MapOrigin::Scope of_files(scene.origin.get());
     try {
         environment = std::make_unique<Environment>(described.processes, context);
@@ -90,7 +122,7 @@ void World::State::make_environment() {
         throw explained(error, scene.computed);
     }
     if (scene.origin) {
-        for (Diagnostic& warning : scene.origin->take_warnings()) warnings.push_back(std::move(warning));
+        for (Diagnostic& warning : scene.origin->take_warnings()) review.warnings.push_back(std::move(warning));
     }
     for (const auto& process : described.processes) process.second.reject_unread();
     if (described.in_time) described.in_time->check(*environment);
@@ -99,9 +131,10 @@ void World::State::make_environment() {
     if (described.keeps_unanswered) environment->keep_unanswered();
 }
 
-void World::State::make_plants(const std::filesystem::path& files) {
+std::vector<GrowingPlant> World::State::make_plants(const std::filesystem::path& files) {
     std::map<const CompiledModel*, std::shared_ptr<const SymbolTable>> symbols;
-    plants.reserve(scene.plants.size());
+    std::vector<GrowingPlant> made;
+    made.reserve(size());
     exchanges = environment->size() > 0;
     std::size_t held = 0;  // by arrays of the plants so far
     for (const Plant& plant : scene.plants) {
@@ -111,15 +144,17 @@ void World::State::make_plants(const std::filesystem::path& files) {
         if (!table) {
             table = symbol_table(model);
             warn_of_likely_names(model, plant.name);
-            known_models.push_back({&model, table});
+            review.add(model, table);
             exchanges = exchanges || has_queries(model.alphabet);
+            may_stop = may_stop || has_order(*plant.model);
         }
-        const auto number = static_cast<std::uint32_t>(plants.size());
+        const auto number = static_cast<std::uint32_t>(made.size());
         DerivationSettings settings = derivation_settings(plant, files);
         settings.memory -= held;
-        const GrowingPlant& made = plants.emplace_back(number, plant, table, settings);
-        held = std::min(held + made.derivation.working_memory({}), memory.bytes());
+        const GrowingPlant& last = made.emplace_back(number, plant, table, settings);
+        held = std::min(held + last.derivation.working_memory({}), memory.bytes());
     }
+    return made;
 }
 
 // A default must not hide that a name is misspelt.
@@ -129,11 +164,9 @@ void World::State::warn_of_likely_names(const Model& model, const std::string& p
     for (const std::string& name : environment->answered_by_default(model)) {
         const std::string likely = did_you_mean(name, names);
         if (likely.empty()) continue;
-        warnings.push_back({Diagnostic::Severity::warning, Place(),
-                            fmt::format("plant '{}': ?{} is answered the default of {}, because the scene has no "
-                                        "process of that name{}",
-                                        plant, name, model.name, likely),
-                            ""});
+        review.warn(fmt::format(
+            "plant '{}': ?{} is answered the default of {}, because the scene has no process of that name{}", plant,
+            name, model.name, likely));
     }
 }
 
@@ -152,23 +185,14 @@ DerivationSettings World::State::derivation_settings(const Plant& plant, const s
 // The scene's steps are the derivation length of all plants; if it gives none, the longest of theirs is. An animation
 // leaves them alone, but a run goes on to its first frame.
 void World::State::set_lengths() {
-    note_ends();
+    ends = ends_here();
     if (scene.steps || !scene.frames) {
-        const int length = scene.steps.value_or(longest);
-        for (GrowingPlant& plant : plants) plant.set_length(length);
-        note_ends();
-    } else if (!scene.last_frame && longest < scene.frames->first) {
+        const int length = scene.steps.value_or(ends.longest);
+        for (GrowingPlant& plant : plants->all()) plant.set_length(length);
+        ends = ends_here();
+    } else if (!scene.last_frame && ends.longest < scene.frames->first) {
         scene.last_frame = scene.frames->first;
     }
 }
-
-World::World(const Scene& scene, std::size_t memory, const std::filesystem::path& files,
-             std::shared_ptr<Printout> printout, Ranks* ranks) {
-    together(ranks, [&] { state_ = std::make_unique<State>(scene, memory, files, std::move(printout), ranks); });
-}
-
-World::~World() = default;
-World::World(World&&) noexcept = default;
-World& World::operator=(World&&) noexcept = default;
 
 }  // namespace espalier::simulation

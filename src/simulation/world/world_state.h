@@ -5,135 +5,127 @@
 #include "espalier/environment/environment.h"
 #include "espalier/simulation/world.h"
 
-#include "base/scratch_file.h"
-#include "simulation/plant/growing_plant.h"
-#include "simulation/spread/spread.h"
-#include "simulation/world/memory_budget.h"
-#include "simulation/world/plant_store.h"
+#include "simulation/plant/memory_budget.h"
+#include "simulation/spread/plant_set.h"
+#include "simulation/world/recording.h"
+#include "simulation/world/review.h"
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <iosfwd>
 #include <memory>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace espalier::simulation {
 
-struct World::State {
-    /// What the recorders of a run read.
-    struct Recorded {
-        bool anything = false, fields = false;
-    };
+/// Adds the seconds of its life.
+class Stopwatch {
+public:
+    explicit Stopwatch(double& seconds) : seconds_(seconds), begin_(std::chrono::steady_clock::now()) {}
+    ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
 
-    /// States of plants that other ranks hold.
-    struct Gathered {
-        struct Place {
-            std::uint64_t at = 0;
-            std::size_t size = 0;
-        };
-        ScratchFile states;
-        std::vector<Place> of_plants;  ///< by number
-    };
+private:
+    double& seconds_;
+    std::chrono::steady_clock::time_point begin_;
+};
 
-    State(const Scene& described, std::size_t bytes, const std::filesystem::path& files,
-          std::shared_ptr<Printout> prints, Ranks* ranks);
-
-    void all_do(const std::function<void()>& stage) { together(spread ? &spread->ranks() : nullptr, stage); }
-    void begin_step();
-    void end_step();
-    void agree_on_ends();
-    const Recorded& what_is_recorded();
-    void restore(std::istream& in);
-
-    void share_out_memory();
-    void make_environment();
-    void make_plants(const std::filesystem::path& files);
-    void warn_of_likely_names(const Model& model, const std::string& plant);
-    void set_lengths();
-    DerivationSettings derivation_settings(const Plant& plant, const std::filesystem::path& files) const;
-    double time() const { return step * scene.dt; }
-    using Stage = void (GrowingPlant::*)(ModuleString*);
-    void grow(Stage stage);
-    void rewrite(std::span<GrowingPlant> some, Stage stage);
-    void interpret(std::span<GrowingPlant> some);
-    void wake(std::span<GrowingPlant> some);
-    void rest(std::span<GrowingPlant> some);
-    template <class Action>
-    void for_waiting(std::span<GrowingPlant> some, const Action& action);
-    bool reads_plants(bool may_end) const;
-    void record();
-    void record_waiting();
-    void record_spread();
-    void record_by_first();
-    using Piece = std::span<GrowingPlant>;
-    std::size_t points_per_file();
-    std::vector<Piece> pieces_of_frame();
-    Piece plants_between(std::size_t begin, std::size_t end);
-    std::size_t parts() const { return static_cast<std::size_t>(spread->ranks().count()); }
-    Piece part(std::size_t i) { return plants_between(plants.size() * i / parts(), plants.size() * (i + 1) / parts()); }
-    void gather_states(const std::filesystem::path& folder);
-    void record_pieces(std::span<const Piece> pieces);
-    void give(std::span<const GrowingPlant> some, bool begins, bool ends, std::optional<int> piece = {}) const;
-    Frame frame_of(std::span<const GrowingPlant> some) const;
-    std::vector<const Model*> models() const;
-    bool is_at_end() const { return stopped || step >= last_step(); }
-    int last_step() const { return scene.last_frame.value_or(longest); }
-    void note_ends();
-    void place_births();
-    void find_fields_read();
-    void warn(Diagnostic warning);
-    void warn_of_unasked();
-    void warn_of_ignored();
-    void warn_of_undrawn();
-    void warn_of_never_asked();
-    void review_run();
-    void take_fields();
-    void store_answers();
-    void exchange();
-
-    std::shared_ptr<Printout> printout;
-    Scene scene;
-    std::size_t budget;  ///< bytes for plants and fields
-    MemoryBudget memory;
-    bool exchanges = false;  ///< a process is there, or a model may ask the turtle
-    bool is_seen = true;
-    ReadLog* reads = ReadLog::current();  ///< log of the thread that makes the world
-    std::vector<GrowingPlant> plants;
-    std::unique_ptr<Environment> environment;
-    std::unique_ptr<Spread> spread;        ///< null: all plants are here
-    std::unique_ptr<PlantStore> store;     ///< null: all plants are in memory
-    bool ends_at_will = false;             ///< models may end the run before its time
-    bool is_drawn = false;                 ///< what is drawn of plants waits, too: recorders read this step's plants
-    std::vector<std::string> fields_read;  ///< by turtles
-    FieldValues fields;                    ///< while turtles walk, and after a restart until then
-    bool has_restored_fields = false;
-    bool is_whole = true;  ///< it has seen all steps of the run
-    struct KnownModel {
-        const Model* model;
-        std::shared_ptr<const SymbolTable> symbols;
-        unsigned ignored = 0;  ///< by turtles, and told
-    };
-    std::vector<KnownModel> known_models;
-    std::vector<Recorder*> recorders;
-    bool gets_only_pieces = false;                    ///< the recorder, as another rank has the run's
-    std::optional<Recorded> recorded;                 ///< by the first rank; asked for once
-    std::unique_ptr<Gathered> gathered;               ///< for a checkpoint of the first rank
-    std::size_t modules_of_all = 0;                   ///< on all ranks
-    bool is_saved = false;                            ///< before the step, for a checkpoint: plants may move
-    double busy = 0;                                  ///< seconds of work on the plants since they might have moved
-    std::uint64_t sent_messages = 0, sent_bytes = 0;  ///< before the step
-    std::uint64_t births = 0;                         ///< modules that were born so far, on all ranks
-    int step = 0;
+/// Where plants end, as derivation leaves it: of all ranks.
+struct Ends {
     int longest = 0;  ///< derivation length of the plants
     bool stopped = false;
+    std::size_t modules = 0;
+};
+
+/// Fields as turtles read them: what processes left after the step before.
+struct FieldsForTurtles {
+    std::vector<std::string> names;
+    FieldValues values;         ///< while turtles walk, and after a restart until then
+    bool has_restored = false;  ///< a world that was restarted has them from its checkpoint
+    void take(const Fields& fields);
+};
+
+struct World::State {
+    using Part = PlantSet::Part;
+    using Stage = void (GrowingPlant::*)(ModuleString*);
+
+    State(const Scene& described, const WorldOptions& options);
+
+    // How it is made: world_making.cpp
+    void make_environment();
+    std::vector<GrowingPlant> make_plants(const std::filesystem::path& files);
+    void place(std::vector<GrowingPlant> made, const WorldOptions& options);
+    void require_waiting() const;
+    DerivationSettings derivation_settings(const Plant& plant, const std::filesystem::path& files) const;
+    void warn_of_likely_names(const Model& model, const std::string& plant);
+    void share_out_memory();
+    void set_lengths();
+
+    // A step: world.cpp
+    void begin_step();
+    void grow(Stage stage);
+    void derive(Part part, Stage stage);
+    void place_births();
+    void interpret(Part part);
+    void walk(Part part);
+    void exchange();
+    void record();
+    void end_step();
+
+    void all_do(const std::function<void()>& work) { together(ranks, work); }
+    Ends ends_here() const;
+    void note_ends();
+    void answer_queries();
+    void store_answers();
+
+    // Frames: frames.cpp
+    void record_frame();
+    std::vector<Part> pieces_of_frame();
+    void record_parts();
+    void record_pieces(std::span<const Part> pieces);
+    void record_plants(std::span<const GrowingPlant> some, bool begins, bool ends_there, std::optional<int> piece = {});
+    Frame frame_of(std::span<const GrowingPlant> some);
+    std::vector<const Model*> models() const;
+
+    void restore(std::istream& in);  // world_checkpoint.cpp
+    void derive_all(Stage stage);    // staged_world.cpp
+
+    std::size_t size() const { return scene.plants.size(); }
+    double time() const { return step * scene.dt; }
+    int last_step() const { return scene.last_frame.value_or(ends.longest); }
+    bool is_at_end() const { return ends.stopped || step >= last_step(); }
+
+    Scene scene;
+    const std::shared_ptr<Printout> printout;
+    Ranks* const ranks;                   ///< null: this process grows the world alone
+    ReadLog* reads = ReadLog::current();  ///< log of the thread that makes the world
+    const std::size_t budget;             ///< bytes for plants and fields
+    MemoryBudget memory;
+    Review review;
+    std::unique_ptr<Environment> environment;
+    std::unique_ptr<PlantSet> plants;
+    FieldsForTurtles fields;
+    Recording recording;
+
+    bool exchanges = false;  ///< a process is there, or a model may ask the turtle
+    bool is_looked_at;       ///< not only by recorders
+    bool is_seen = true;     ///< turtles walk
+    bool may_stop = false;   ///< models may end the run before its time
+    bool is_drawn = false;   ///< recorders may read what is drawn of this step
+    bool is_whole = true;    ///< it has seen all steps of the run
+    bool has_begun = false;
+
+    int step = 0;
+    Ends ends;
+    std::uint64_t births = 0;  ///< modules that were born so far, on all ranks
     StageTimes times;
-    std::vector<Diagnostic> warnings;
-    std::set<std::string> warned;  ///< what warn() has said
+    double busy = 0;      ///< seconds of work on the plants
+    PlantSet::Sent sent;  ///< before the step
 };
 
 }  // namespace espalier::simulation

@@ -80,7 +80,7 @@ struct Growth::Work {
 
     /// Instead of one that was left in the midst of a step.
     void renew_world() {
-        world = World(scene, memory, files, printout);
+        world = StagedWorld(scene, memory, files, printout);
         at = -1;
     }
 
@@ -88,7 +88,7 @@ struct Growth::Work {
     const std::size_t memory;
     const fs::path files;
     const std::shared_ptr<Printout> printout;
-    World world;
+    StagedWorld world;
     std::unique_ptr<Recorder> statistics;
     fs::path statistics_file;
     std::size_t statistics_read = 0;
@@ -212,7 +212,7 @@ void Growth::live() {
 }
 
 void Growth::begin(Work& work, GrowthStart start) {
-    World& world = work.world;
+    StagedWorld& world = work.world;
     last_step_ = world.last_step();
     may_extend_ = !depends_on_length(world.scene());
     if (draws_apart(world.scene())) {

@@ -3,7 +3,7 @@
 
 #include "espalier/base/read_log.h"
 #include "espalier/base/stop.h"
-#include "espalier/simulation/world.h"
+#include "espalier/simulation/staged_world.h"
 #include "espalier/studio/studio.h"
 
 #include "studio/growth/kept_steps.h"

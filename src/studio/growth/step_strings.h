@@ -1,7 +1,7 @@
 // The strings of one step and what derivation remembered with them: in memory, or in a file.
 #pragma once
 
-#include "espalier/simulation/world.h"
+#include "espalier/simulation/staged_world.h"
 
 #include "studio/growth/reuse_plan.h"
 #include "studio/growth/spool.h"

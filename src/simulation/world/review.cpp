@@ -1,6 +1,6 @@
-// What is odd about a world, and keeps it from nothing: processes that nothing asks, models of which nothing is drawn.
+#include "simulation/world/review.h"
+
 #include "base/excerpt.h"
-#include "simulation/world/world_state.h"
 
 #include <fmt/format.h>
 
@@ -60,21 +60,27 @@ bool is_cut_short(const Scene& scene, int steps) {
 
 }  // namespace
 
-void World::State::warn(Diagnostic warning) {
-    if (warned.insert(to_string(warning)).second) warnings.push_back(std::move(warning));
+void Review::warn(Diagnostic warning) {
+    if (told_.insert(to_string(warning)).second) warnings.push_back(std::move(warning));
+}
+
+std::set<std::size_t> Review::may_be_asked(const Environment& environment) const {
+    std::set<std::size_t> asked;
+    for (const KnownModel& known : models_) asked.merge(environment.may_ask(*known.model));
+    return asked;
 }
 
 // A process that answers nothing may still be there for others: its fields are recorded or read, or it measures organs.
-void World::State::warn_of_unasked() {
-    if (environment->size() == 0) return;
+void Review::warn_of_unasked(const Scene& scene, const Environment& environment,
+                             const std::vector<std::string>& fields_read) {
+    if (environment.size() == 0) return;
     if (std::any_of(scene.plants.begin(), scene.plants.end(), inserts_queries)) return;
-    std::set<std::size_t> asked;
-    for (const KnownModel& known : known_models) asked.merge(environment->may_ask(*known.model));
-    std::set<std::string> named = named_processes(scene, environment->fields());
+    const std::set<std::size_t> asked = may_be_asked(environment);
+    std::set<std::string> named = named_processes(scene, environment.fields());
     for (const std::string& field : fields_read) named.insert(process_of_field(field));
-    for (std::size_t process = 0; process < environment->size(); ++process) {
-        const std::string& name = environment->name(process);
-        if (asked.contains(process) || named.contains(name) || environment->measures_organs(process)) continue;
+    for (std::size_t process = 0; process < environment.size(); ++process) {
+        const std::string& name = environment.name(process);
+        if (asked.contains(process) || named.contains(name) || environment.measures_organs(process)) continue;
         warn(warning_at(scene.environment.processes[process].second.place(),
                         fmt::format("no plant asks the process '{0}', and nothing reads or records its fields: a model "
                                     "asks it by ?{0}(...), after 'environment {0};'",
@@ -84,58 +90,55 @@ void World::State::warn_of_unasked() {
 }
 
 // Of all plants with a model: which of them meets it first does not matter.
-void World::State::warn_of_ignored() {
-    for (KnownModel& known : known_models) {
+void Review::warn_of_ignored() {
+    for (KnownModel& known : models_) {
         const unsigned ignored = ignored_by_turtle(*known.symbols) & ~known.ignored;
         known.ignored |= ignored;
         for (Diagnostic& warning : warnings_of_ignored(ignored, *known.model)) warn(std::move(warning));
     }
 }
 
-void World::State::review_run() {
-    for (KnownModel& known : known_models) {
-        unsigned of_others = 0;
-        if (spread) {
-            for (const std::string& bits : from_all(&spread->ranks(), std::to_string(known.ignored))) {
-                of_others |= static_cast<unsigned>(std::stoul(bits));
-            }
+void Review::warn_of_ignored_elsewhere(Ranks* ranks) {
+    for (KnownModel& known : models_) {
+        unsigned ignored = 0;
+        for (const std::string& bits : from_all(ranks, std::to_string(known.ignored))) {
+            ignored |= static_cast<unsigned>(std::stoul(bits));
         }
-        for (Diagnostic& warning : warnings_of_ignored(of_others, *known.model)) warn(std::move(warning));
+        for (Diagnostic& warning : warnings_of_ignored(ignored, *known.model)) warn(std::move(warning));
     }
-    if (!is_whole || is_cut_short(scene, step)) return;
-    warn_of_undrawn();
-    warn_of_never_asked();
+}
+
+void Review::review(const WholeRun& run) {
+    if (is_cut_short(run.scene, run.steps)) return;
+    warn_of_undrawn(run);
+    warn_of_never_asked(run);
 }
 
 // Some plants of a stand may never germinate, so nothing must be drawn of any.
-void World::State::warn_of_undrawn() {
-    Ranks* const ranks = spread ? &spread->ranks() : nullptr;
+void Review::warn_of_undrawn(const WholeRun& run) {
     std::map<std::string, bool> shown;  // by file, in the same order on all ranks
-    for (const GrowingPlant& plant : plants) {
+    for (const GrowingPlant& plant : run.plants) {
         bool& is_file_shown = shown[file_of(plant.model())];
         is_file_shown = is_file_shown || plant.has_shown();
     }
     for (const auto& [file, is_shown_here] : shown) {
-        if (any(ranks, !is_seen || is_shown_here)) continue;
+        if (any(run.ranks, !run.is_seen || is_shown_here)) continue;
         std::string message =
-            step == 0 ? "nothing is drawn of this model: the run has no steps. Is 'derivation length' missing?"
-                      : fmt::format(
-                            "nothing was drawn of this model in {} step{}, and it asked no process: its string "
-                            "never held an F or another symbol that the turtle draws",
-                            step, step == 1 ? "" : "s");
+            run.steps == 0 ? "nothing is drawn of this model: the run has no steps. Is 'derivation length' missing?"
+                           : fmt::format(
+                                 "nothing was drawn of this model in {} step{}, and it asked no process: its string "
+                                 "never held an F or another symbol that the turtle draws",
+                                 run.steps, run.steps == 1 ? "" : "s");
         warn(warning_at({file}, std::move(message), /*insistent=*/true));
     }
 }
 
-void World::State::warn_of_never_asked() {
-    Ranks* const ranks = spread ? &spread->ranks() : nullptr;
-    std::set<std::size_t> asked;
-    for (const KnownModel& known : known_models) asked.merge(environment->may_ask(*known.model));
-    for (const std::size_t process : asked) {
-        if (any(ranks, environment->was_asked(process))) continue;
-        warn(warning_at(scene.environment.processes[process].second.place(),
-                        fmt::format("in {} step{} no plant has asked the process '{}'", step, step == 1 ? "" : "s",
-                                    environment->name(process)),
+void Review::warn_of_never_asked(const WholeRun& run) {
+    for (const std::size_t process : may_be_asked(run.environment)) {
+        if (any(run.ranks, run.environment.was_asked(process))) continue;
+        warn(warning_at(run.scene.environment.processes[process].second.place(),
+                        fmt::format("in {} step{} no plant has asked the process '{}'", run.steps,
+                                    run.steps == 1 ? "" : "s", run.environment.name(process)),
                         /*insistent=*/false));
     }
 }

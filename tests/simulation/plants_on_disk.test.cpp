@@ -1,5 +1,6 @@
 // Worlds of which only some plants are in memory: the bytes of one that is there as a whole.
 #include "espalier/simulation/simulation.h"
+#include "espalier/simulation/world_checkpoint.h"
 
 #include "catch.h"
 #include "simulation/shading_stand.h"
@@ -159,20 +160,19 @@ TEST_CASE_METHOD(Stored, "what is drawn of plants waits only for recorders that 
         std::size_t drawn = 0;
     };
     const Scene described = scene(light);
-    World world(described);
-    world.require_waiting();
-    world.keep_on_disk(path(), 3);
+    World world(described, {.blocks = BlocksOnDisk{path(), 6}});
+    const WorldCheckpoint checkpoint(world);
     AtEvenSteps recorder;
     world.attach(recorder);
     world.start();
-    std::size_t waiting = world.bytes_of_strings();
+    std::size_t waiting = checkpoint.bytes();
     for (int step = 1; step <= 8; ++step) {
         recorder.drawn = 0;
         world.step();
         INFO("step " << step);
         CHECK((recorder.drawn > 0) == (step % 2 == 0));
-        if (step % 2 == 0) CHECK(world.bytes_of_strings() > 2 * waiting);
-        waiting = world.bytes_of_strings();
+        if (step % 2 == 0) CHECK(checkpoint.bytes() > 2 * waiting);
+        waiting = checkpoint.bytes();
     }
 }
 

@@ -1,4 +1,4 @@
-#include "simulation/world/memory_budget.h"
+#include "simulation/plant/memory_budget.h"
 
 #include <fmt/format.h>
 
@@ -92,7 +92,7 @@ void MemoryBudget::check_drawn(std::span<const GrowingPlant> plants, int step) {
 void MemoryBudget::check_received(std::span<const GrowingPlant> plants, int step) const {
     std::size_t received = 0;
     for (const GrowingPlant& plant : plants) {
-        if (plant.is_here) continue;
+        if (plant.is_local) continue;
         PlantMemory memory;
         memory.set_drawn(plant.drawn(), /*many_plants=*/true);
         received += plant.string->content() + memory.total();
