@@ -102,6 +102,7 @@ private:
     void divide(std::size_t bearer, const std::vector<Stand>& stands) {
         const std::vector<MeasuredNode>& line = axes_[bearer].nodes;
         std::vector<MeasuredNode> nodes;
+        nodes.reserve(line.size() + stands.size());
         auto stand = stands.begin();
         for (std::size_t i = 0; i < line.size(); ++i) {
             nodes.push_back(line[i]);

@@ -3,6 +3,8 @@
 
 #include "language/mtg/axes.h"
 
+#include <utility>
+
 namespace espalier::language {
 namespace {
 
@@ -36,8 +38,8 @@ scale of what it follows, or the next finer one. A file without coordinates, whi
 --define DT=0.5 sets the days of a step. Each axis ends with a module Tip(order), where a model made by `espalier translate` can go on
 to grow.
 C. Godin, Y. Caraglio: A multiscale model of plant topological structures. Journal of Theoretical Biology 191, 1998.)",
-     nullptr, [](const std::string& text, const std::filesystem::path& path, const MeasuredOptions& options) {
-         return mtg::read_axes(text, path.string(), options);
+     nullptr, [](std::string text, const std::filesystem::path& path, const MeasuredOptions& options) {
+         return mtg::read_axes(std::move(text), path.string(), options);
      }}};
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include "language/opf/axes.h"
 
+#include <utility>
+
 namespace espalier::language {
 namespace {
 
@@ -17,8 +19,8 @@ Lengths are cm, and z points upwards. Leaves and other organs are not drawn, and
 and each attribute.
 S. Griffon, F. de Coligny: AMAPstudio, an editing and simulation software suite for plants architecture modelling. Ecological
 Modelling 290, 2014.)",
-     nullptr, [](const std::string& text, const std::filesystem::path& path, const MeasuredOptions& options) {
-         return opf::read_plants(text, path.string(), options);
+     nullptr, [](std::string text, const std::filesystem::path& path, const MeasuredOptions& options) {
+         return opf::read_plants(std::move(text), path.string(), options);
      }}};
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include "language/rsml/document.h"
 
+#include <utility>
+
 namespace espalier::language {
 namespace {
 
@@ -35,8 +37,8 @@ letters, with - or _ or without.
 --define DT=0.5 sets the days of a step. Each root ends with a module Tip(order), where a model made by `espalier translate` can go on
 to grow. `espalier import` says what was read, and --unit, --up and --pixel overrule the file.
 G. Lobet et al.: Root System Markup Language. Plant Physiology 167, 2015.)",
-     nullptr, [](const std::string& text, const std::filesystem::path& path, const MeasuredOptions& options) {
-         return rsml::read(text, path.string(), options);
+     nullptr, [](std::string text, const std::filesystem::path& path, const MeasuredOptions& options) {
+         return rsml::read(std::move(text), path.string(), options);
      }}};
 
 }  // namespace

@@ -202,10 +202,10 @@ private:
 
 }  // namespace
 
-MeasuredPlants read_plants(const std::string& text, const std::string& name, const MeasuredOptions& options) {
+MeasuredPlants read_plants(std::string text, const std::string& name, const MeasuredOptions& options) {
     measured::Notes notes(name);
     const Axes axes(options);
-    const Document document = read(text, name, notes);
+    const Document document = read(std::move(text), name, notes);
     std::vector<measured::LooseAxis> loose;
     std::vector<MeasuredPlant> plants;
     Pieces(document, axes, Stand()).add_to(loose, plants);

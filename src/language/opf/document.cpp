@@ -23,8 +23,8 @@ class Reader final : public XmlReader {
 public:
     Reader(const std::string& name, measured::Notes& notes) : XmlReader(name, most_depth), notes_(notes) {}
 
-    Document read(const std::string& text) {
-        parse(text);
+    Document read(std::string text) {
+        parse(std::move(text));
         if (!is_opf_) fail("this is no OPF file: its outermost element is not <opf>");
         for (const auto& [element, place] : not_drawn_) {
             notes_.warn(fmt::format("'{}' has meshes that are no pieces of axes, and is not drawn", escaped(element)),
@@ -160,8 +160,8 @@ bool MeshBox::is_tube() const {
            std::max(std::abs(middle.y), std::abs(middle.z)) < 0.1 * across;
 }
 
-Document read(const std::string& text, const std::string& name, measured::Notes& notes) {
-    return Reader(name, notes).read(text);
+Document read(std::string text, const std::string& name, measured::Notes& notes) {
+    return Reader(name, notes).read(std::move(text));
 }
 
 }  // namespace espalier::language::opf

@@ -45,6 +45,6 @@ struct Document {
 };
 
 /// Throws UserError with the place of a mistake.
-Document read(const std::string& text, const std::string& name, measured::Notes& notes);
+Document read(std::string text, const std::string& name, measured::Notes& notes);
 
 }  // namespace espalier::language::opf

@@ -236,6 +236,7 @@ private:
 
     void set_nodes() {
         for (RawRoot& root : file_.roots) {
+            root.axis.nodes.reserve(root.points.size());
             for (const glm::dvec3& point : root.points) {
                 root.axis.nodes.push_back({axes_ * point, diameter_if_unknown, 0, false});
             }
@@ -479,9 +480,9 @@ private:
 
 }  // namespace
 
-MeasuredPlants read(const std::string& text, const std::string& name, const MeasuredOptions& options) {
+MeasuredPlants read(std::string text, const std::string& name, const MeasuredOptions& options) {
     measured::Notes notes(name);
-    RawFile raw = read_raw(text, name, notes);
+    RawFile raw = read_raw(std::move(text), name, notes);
     MeasuredPlants plants = Measuring(std::move(raw), name, options, notes).plants();
     plants.warnings = notes.warnings();
     return plants;

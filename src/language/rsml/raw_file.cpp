@@ -21,8 +21,8 @@ class RawReader final : public XmlReader {
 public:
     RawReader(const std::string& name, measured::Notes& notes) : XmlReader(name), notes_(notes) {}
 
-    RawFile read(const std::string& text) {
-        parse(text);
+    RawFile read(std::string text) {
+        parse(std::move(text));
         if (!is_rsml_) fail("this is no RSML file: its outermost element is not <rsml>");
         if (!bookkeeping_.empty()) notes_.unused("metadata " + bookkeeping_, bookkeeping_place_);
         return std::move(file_);
@@ -322,8 +322,8 @@ private:
 
 }  // namespace
 
-RawFile read_raw(const std::string& text, const std::string& name, measured::Notes& notes) {
-    return RawReader(name, notes).read(text);
+RawFile read_raw(std::string text, const std::string& name, measured::Notes& notes) {
+    return RawReader(name, notes).read(std::move(text));
 }
 
 }  // namespace espalier::language::rsml
