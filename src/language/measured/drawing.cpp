@@ -78,7 +78,8 @@ private:
                 }
             }
             if (top.node + 1 < axis.nodes.size()) {
-                segment(here, axis.nodes[++top.node]);
+                const bool is_behind_gap = top.node > 0 && axis.nodes[top.node].linked;
+                segment(here, axis.nodes[++top.node], is_behind_gap);
                 continue;
             }
             append(letters_.tip, {static_cast<double>(axis.order)});
@@ -95,18 +96,20 @@ private:
         append(letters_.move, {length});
     }
 
-    void segment(const glm::dvec3& from, const MeasuredNode& node) {
+    /// What reads the drawing tells by G that an axis goes on behind a gap.
+    void segment(const glm::dvec3& from, const MeasuredNode& node, bool is_behind_gap) {
         const double length = glm::distance(from, node.at);
         if (!(length > 1e-9)) return;
         if (node.linked) return link(from, node);
         const glm::dvec3 heading = (node.at - from) / length;
         if (node.day > 0) {
-            append(letters_.node, {node.day, heading.x, heading.y, heading.z, length, node.diameter});
+            append(is_behind_gap ? letters_.node_behind : letters_.node,
+                   {node.day, heading.x, heading.y, heading.z, length, node.diameter});
             return;
         }
         append(letters_.width, {node.diameter});
         head(heading);
-        append(letters_.forward, {length});
+        append(is_behind_gap ? letters_.forward_behind : letters_.forward, {length});
     }
 
     const MeasuredPlants& plants_;
@@ -126,7 +129,9 @@ DrawingLetters::DrawingLetters(Alphabet& alphabet)
       axis_begin(alphabet.letter("A", 0)),
       axis(alphabet.letter("x", 1)),
       tip(alphabet.letter("Tip", 1)),
-      node(alphabet.letter("Node", 6)) {}
+      node(alphabet.letter("Node", 6)),
+      forward_behind(alphabet.letter("G", 1)),
+      node_behind(alphabet.letter("NodeBehind", 6)) {}
 
 ModuleString drawing_of(const MeasuredPlants& plants, std::optional<std::size_t> plant, const DrawingLetters& letters) {
     std::vector<std::size_t> first_axes;
@@ -156,7 +161,8 @@ std::string text_of(const ModuleString& string, const Alphabet& alphabet) {
 }
 
 std::string sample_axiom(bool has_times) {
-    return std::string(" [@Ax(0) !(1) @R(1, 0, 0) f(1) F(1) Tip(0)]") + (has_times ? " Node(1, 1, 0, 0, 1, 1)" : "");
+    return std::string(" [@Ax(0) !(1) @R(1, 0, 0) f(1) F(1) G(1) Tip(0)]") +
+           (has_times ? " Node(1, 1, 0, 0, 1, 1) NodeBehind(1, 1, 0, 0, 1, 1)" : "");
 }
 
 }  // namespace espalier::language::measured

@@ -29,6 +29,7 @@ diameter         0.5 mm; function or property, or radius, rootDiameter. In the u
 node_creation_time  none; function or property, or creationTime, emergence_time, emergence, time: the day on which each node appears
 age              none; function or property, d: the same, counted back from the oldest; taken as the day if it grows towards the tips
 length           none; property, with which the lines are compared
+continues        none; property: the ID of a root that stands before this one, which is a further piece of it, behind a gap
 
 A function has a sample for each point (domain polyline), samples with positions along the root (length), or evenly spread ones
 (uniform, with origin and step). It may stand in <function>, <function1> or <functions name="...">. Names may be in small or capital
