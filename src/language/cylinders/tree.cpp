@@ -116,9 +116,18 @@ private:
         first_line_ = line_ + 1;
     }
 
+    /// Between semicolons, a comma may stand for the point.
+    std::optional<double> number_in(std::string_view cell) const {
+        const std::size_t comma = header_.separator == ';' ? cell.find(',') : std::string_view::npos;
+        if (comma == std::string_view::npos) return finite_number(cell);
+        std::string with_point(cell);
+        with_point[comma] = '.';
+        return finite_number(with_point);
+    }
+
     double number(Field field) const {
         const std::size_t column = *header_.column[field];
-        const std::optional<double> value = column < cells_.size() ? finite_number(cells_[column]) : std::nullopt;
+        const std::optional<double> value = column < cells_.size() ? number_in(cells_[column]) : std::nullopt;
         if (value && std::abs(*value) < largest) return *value;
         fail(column, fmt::format("column {} of a cylinder is a number, not '{}'", header_.names[column],
                                  column < cells_.size() ? escaped(cells_[column].substr(0, 40)) : ""));

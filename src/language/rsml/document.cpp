@@ -407,7 +407,12 @@ private:
     void set_bearing_nodes() {
         for (RawRoot& root : file_.roots) {
             for (const RawProperty& property : root.properties) {
-                if (property.term.quantity != Quantity::parent_node || !root.axis.bearer) continue;
+                if (property.term.quantity != Quantity::parent_node) continue;
+                if (!root.axis.bearer) {
+                    if (property.value >= 0)
+                        notes_.unused("the parent-node of a root that nothing bears", root.axis.place);
+                    continue;
+                }
                 const RawRoot& bearer = file_.roots[*root.axis.bearer];
                 if (property.value < 0 || bearer.points.empty()) continue;
                 if (property.value >= static_cast<double>(bearer.points.size())) {
