@@ -29,6 +29,10 @@ void print_json(const MeasuredPlants& plants, const MeasuredSummary& summary) {
     report["length"] = summary.length;
     report["surface"] = summary.surface;
     report["volume"] = summary.volume;
+    report["drawn_surface"] = summary.drawn_surface;
+    report["drawn_volume"] = summary.drawn_volume;
+    report["organs"] = summary.organs;
+    report["organ_area"] = summary.organ_area;
     report["link_length"] = summary.link_length;
     report["lowest"] = vector_json(summary.extent[0]);
     report["highest"] = vector_json(summary.extent[1]);
@@ -50,8 +54,13 @@ void print_text(const MeasuredPlants& plants, const MeasuredSummary& summary) {
     fmt::print(
         "length     {}{}\n", in_words(summary.length),
         summary.link_length > 0 ? ", and " + in_words(summary.link_length) + " of links, which belong to no axis" : "");
-    fmt::print("surface    {} m2\n", format_general(summary.surface));
-    fmt::print("volume     {} m3\n", format_general(summary.volume));
+    fmt::print("surface    {} m2 of cylinders, {} m2 of the cones that a run draws and `analyse` counts\n",
+               format_general(summary.surface), format_general(summary.drawn_surface));
+    fmt::print("volume     {} m3 of cylinders, {} m3 of such cones\n", format_general(summary.volume),
+               format_general(summary.drawn_volume));
+    if (summary.organs > 0) {
+        fmt::print("organs     {}, with {} m2 on one side\n", summary.organs, format_general(summary.organ_area));
+    }
     fmt::print("size       {} wide, {} high, {} deep\n", in_words(size.x), in_words(size.y), in_words(size.z));
     for (const auto& [axis, name] : {std::pair{0, 'x'}, {1, 'y'}, {2, 'z'}}) {
         fmt::print("  {}        {} to {}{}\n", name, in_words(summary.extent[0][axis]),
