@@ -2,6 +2,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 #include <cmath>
@@ -28,7 +29,7 @@ void add_piece(MeasuredSummary& summary, const std::vector<MeasuredNode>& nodes,
     // A turtle begins an axis, and goes on behind a gap, with the width of what it draws next.
     const bool continues = number > 1 && !nodes[number - 1].linked;
     const double below = continues ? nodes[number - 1].diameter / 2 : radius;
-    summary.drawn_surface += std::numbers::pi * (below + radius) * std::hypot(length, below - radius);
+    summary.drawn_surface += std::numbers::pi * (below + radius) * glm::length(glm::dvec2(length, below - radius));
     summary.drawn_volume += std::numbers::pi / 3 * (below * below + below * radius + radius * radius) * length;
 }
 
