@@ -45,6 +45,14 @@ std::string in_words(double metres) {
     return format_general(metres) + " m";
 }
 
+/// Of cylinders, and where that differs of the cones that are drawn.
+void print_both(const char* name, double cylinders, double cones, const char* unit) {
+    const std::string first = format_general(cylinders), second = format_general(cones);
+    if (first == second) return fmt::print("{:10} {} {}\n", name, first, unit);
+    fmt::print("{:10} {} {} of cylinders, {} {} of the cones that a run draws and `analyse` counts\n", name, first,
+               unit, second, unit);
+}
+
 void print_text(const MeasuredPlants& plants, const MeasuredSummary& summary) {
     const glm::dvec3 size = summary.extent[1] - summary.extent[0];
     fmt::print("{}: unit {}, {} points upwards\n", plants.path.string(), plants.unit, plants.up);
@@ -54,10 +62,8 @@ void print_text(const MeasuredPlants& plants, const MeasuredSummary& summary) {
     fmt::print(
         "length     {}{}\n", in_words(summary.length),
         summary.link_length > 0 ? ", and " + in_words(summary.link_length) + " of links, which belong to no axis" : "");
-    fmt::print("surface    {} m2 of cylinders, {} m2 of the cones that a run draws and `analyse` counts\n",
-               format_general(summary.surface), format_general(summary.drawn_surface));
-    fmt::print("volume     {} m3 of cylinders, {} m3 of such cones\n", format_general(summary.volume),
-               format_general(summary.drawn_volume));
+    print_both("surface", summary.surface, summary.drawn_surface, "m2");
+    print_both("volume", summary.volume, summary.drawn_volume, "m3");
     if (summary.organs > 0) {
         fmt::print("organs     {}, with {} m2 on one side\n", summary.organs, format_general(summary.organ_area));
     }

@@ -7,6 +7,7 @@
 #include "catch.h"
 #include "temporary_folder.h"
 
+#include <cmath>
 #include <string>
 
 using namespace espalier;
@@ -84,6 +85,19 @@ TEST_CASE("gaps within axes are the same when they are written and read again", 
         CHECK(again.axes.at(0).nodes.back().day == 4);
         CHECK(again.axes.at(0).nodes[again.axes.at(1).on_node].at.y == Approx(-0.05));
     }
+}
+
+TEST_CASE("what hangs within a gap hangs there when it is read again from RSML", "[export]") {
+    const TemporaryFolder folder;
+    const std::string lateral = "0.01,0.3,0,0.09,1.2,0,1,0,2,0,5\n";
+    const MeasuredSummary tree =
+        summary_of(read_measured_plants(folder.write("tree.csv", cylinders_with_gaps + lateral)));
+    CHECK(tree.axes_of_order == std::vector<std::size_t>{1, 4});
+    check_same(summary_of(read_again(folder, "tree.csv", "rsml")), tree);
+    // An MTG tells the piece that it stands on, whose end is nearest.
+    const MeasuredSummary graph = summary_of(read_again(folder, "tree.csv", "mtg"));
+    CHECK(graph.axes_of_order == tree.axes_of_order);
+    CHECK(graph.link_length - tree.link_length == Approx(std::hypot(0.2, 0.09) - 0.09));
 }
 
 TEST_CASE("a gap in the stem of a grown plant begins no plant of its own", "[export]") {

@@ -113,7 +113,7 @@ private:
             format_exact(length), first.birth, first.order, first.identity);
         if (axis.goes_on) {
             put("          <continues value=\"{}\"/>\n", axis_of(axis.bearer).number);
-        } else if (depth > 0) {
+        } else if (depth > 0 && !hangs_at_gap(axis)) {
             put("          <parent-node value=\"{}\"/>\n", node_of_bearer(axis));
         }
         put("        </properties>\n");
@@ -126,6 +126,13 @@ private:
             std::upper_bound(tree_.axes.begin(), tree_.axes.end(), internode,
                              [](InternodeIndex each, const AxisTree::Axis& other) { return each < other.first; });
         return AxisIndex(static_cast<std::size_t>(std::prev(behind) - tree_.axes.begin()));
+    }
+
+    /// Beside the end of its bearer, which goes on behind a gap: it may hang within that, where no node is.
+    bool hangs_at_gap(const AxisTree::Axis& axis) const {
+        const std::vector<AxisIndex>& borne = tree_.axes_borne[axis.bearer];
+        return tree_.internodes[axis.first].base != tree_.internodes[axis.bearer].tip &&
+               std::any_of(borne.begin(), borne.end(), [&](AxisIndex each) { return tree_.axes[each].goes_on; });
     }
 
     /// The node of the bearing axis, from 0, that an axis stands on: the tip of its bearer, or where both begin.
