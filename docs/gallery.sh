@@ -74,7 +74,7 @@ shelf "Trees and shrubs"
 entry environments/tree.toml "Tree from a cloud of points" "Runions, Lane & Prusinkiewicz 2007" -- --light
 entry environments/self-organizing.toml "Self-organizing tree" "Palubicki et al. 2009" --set plant.0.define.YEARS=16 -- --light
 entry models/species/balsam-fir.species "Balsam fir" "parameters of Weber & Penn 1995" -- --light
-entry models/species/black-oak.species "California black oak" "Weber & Penn 1995" --seed 4 -- --light
+entry models/species/black-oak.species "California black oak" "Weber & Penn 1995" --seed 4 --define BaseSize=0.15 -- --light
 entry models/species/black-tupelo.species "Black tupelo" "Weber & Penn 1995" -- --light
 entry models/species/coconut-palm.species "Coconut palm" "Weber & Penn 1995" -- --light
 entry models/species/european-larch.species "European larch" "parameters of Weber & Penn 1995" -- --light

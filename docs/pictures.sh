@@ -130,7 +130,7 @@ species() { # NAME [OPTIONS]; the last step alone, because the whole growth of a
 for plant in quaking-aspen black-tupelo lombardy-poplar coconut-palm balsam-fir european-larch sassafras; do
     species "$plant"
 done
-species black-oak --seed 4
+species black-oak --seed 4 --define BaseSize=0.15
 species weeping-willow --define Branches_3=60 --define QUALITY=0.5
 grow wind environments/wind.toml
 render wind.png wind --sheet 4x1 --size 220x280
@@ -212,8 +212,8 @@ grow tufts models/herbs/grass.l --define TUFTS=6 --define SIDE=0.7 --every 10000
     --set species.0.run="$work/black-oak" --set species.1.run="$work/black-oak-2" \
     --set species.2.run="$work/european-larch" --set species.3.run="$work/european-larch-2" \
     --set species.4.run="$work/bush" --set species.5.run="$work/bush-2" --set cover.0.run="$work/tufts" \
-    --set cover.0.distance=250 --set cover.0.density=0.6 \
-    --set camera.eye=[0,45,1000] --set camera.target=[0,20,500] --size 960x540 --output "$work/landscape.png" --quiet
+    --set cover.0.distance=150 --set cover.0.density=4 --set light.elevation=45 --set camera.angle=46 \
+    --set camera.eye=[0,6,300] --set camera.target=[0,7,0] --size 960x540 --output "$work/landscape.png" --quiet
 with_palette landscape.png
 printf 'click 350 490\ndrag 500 300 530 290\n' >"$work/window.txt"
 "$espalier" view "$work/two-trees" --size 1100x700 --script "$work/window.txt" --screenshot "$work/view.png"

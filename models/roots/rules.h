@@ -4,10 +4,10 @@
    LENGTH(o, t) = k (1 - exp(-r t / k)), k final length, r initial rate (Pages, Jordan & Picard 1989). Laterals stand
    SPACING(o) apart and emerge DELAY days after the tip has passed. Lengths, places and times do not depend on the length of
    a step. Tips ask the soil: their time runs slower where it is not as good as it could be, and stands still at a wall: a
-   tip that has ROOM metres to the nearest one grows by no more than these, less its radius. (An axis that emerges asks at the
-   end of its first step, so it may pass a wall that is nearer to the seed than it grows in that.) A model may define what they
-   ask (ASK), what is answered (ANSWER), the PACE of their time and their ROOM; else tips ask for nitrate, which only laterals
-   heed, and for the nearest wall. A model that defines AGED(t) has it behind each piece, which is t days old at its far end.
+   tip that has ROOM metres to the nearest one grows by no more than these, less its radius. Axes ask before they emerge; only
+   the one of an axiom, which emerges at once, cannot know of a wall. A model may define what they ask (ASK), what is
+   answered (ANSWER), the PACE of their time and their ROOM; else tips ask for nitrate, which only laterals heed, and for
+   the nearest wall. A model that defines AGED(t) has it behind each piece, which is t days old at its far end.
 
    Modules
      A(w)        an axis that is to emerge in `w` days, where it stands (in the first step, made after the others, less DT)
@@ -43,7 +43,10 @@
 #define AGED(t)
 #endif
 
-A(w) : w > DT --> A(w - DT)
+A(w) ANSWER : w > DT --> A(w - DT) ASK
+A(w) ANSWER -->
+	!(WIDTH(0)) G(0, HELD(0, DT - w, 0, ROOM), 0, GROWN(0, HELD(0, DT - w, 0, ROOM)), 1, ROOM) ASK
+A(w) : w > DT --> A(w - DT) ASK
 A(w) --> !(WIDTH(0)) G(0, DT - w, 0, GROWN(0, DT - w), 1, 1000) ASK
 R(o, t, l) ANSWER -->
 	G(o, HELD(o, t + DT * PACE(o), l, ROOM), l, GROWN(o, HELD(o, t + DT * PACE(o), l, ROOM)), PACE(o), ROOM) ASK

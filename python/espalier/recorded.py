@@ -143,6 +143,11 @@ class Run:
         return _recorded.RecordedRun(self.folder)
 
     @property
+    def origin(self):
+        """The place on the map, [x, y, z] in metres, y upwards, that all places are relative to; None near 0."""
+        return self.record.get("origin")
+
+    @property
     def statistics(self):
         """statistics.csv as a DataFrame of pandas: a row for each step and plant."""
         import pandas  # takes half a second: only where it is asked for

@@ -156,6 +156,11 @@ class World:
         return self._world.stage_seconds
 
     @property
+    def origin(self):
+        """The place on the map, [x, y, z] in metres, y upwards, that all places are relative to; None near 0."""
+        return self._world.origin
+
+    @property
     def steps_done(self):
         """How many derivation steps were made."""
         return self._world.steps_done

@@ -173,3 +173,14 @@ def test_things_say_what_they_are_in_a_cell(shoot):
     frame = next(es.World(TREES).run(1))
     assert "voxels" in repr(frame.field("light"))
     assert repr(frame).startswith("Frame of step 0: 2 plants") and "internodes" in repr(frame.internodes)
+
+
+def test_a_world_and_its_run_tell_the_place_on_the_map(shoot, tmp_path):
+    scene = tmp_path / "scene.toml"
+    scene.write_text("[simulation]\norigin = [592700, 0, -5432100]\n[[plant]]\nmodel = 'shoot.l'\n")
+    world = es.World(scene)
+    assert world.origin == [592700, 0, -5432100]
+    es.record(scene, tmp_path / "run")
+    assert es.open(tmp_path / "run").origin == world.origin
+    es.record(shoot, tmp_path / "near")
+    assert es.World(shoot).origin is es.open(tmp_path / "near").origin is None

@@ -29,6 +29,10 @@ void print_json(const MeasuredPlants& plants, const MeasuredSummary& summary) {
     report["length"] = summary.length;
     report["surface"] = summary.surface;
     report["volume"] = summary.volume;
+    report["drawn_surface"] = summary.drawn_surface;
+    report["drawn_volume"] = summary.drawn_volume;
+    report["organs"] = summary.organs;
+    report["organ_area"] = summary.organ_area;
     report["link_length"] = summary.link_length;
     report["lowest"] = vector_json(summary.extent[0]);
     report["highest"] = vector_json(summary.extent[1]);
@@ -41,6 +45,14 @@ std::string in_words(double metres) {
     return format_general(metres) + " m";
 }
 
+/// Of cylinders, and where that differs of the cones that are drawn.
+void print_both(const char* name, double cylinders, double cones, const char* unit) {
+    const std::string first = format_general(cylinders), second = format_general(cones);
+    if (first == second) return fmt::print("{:10} {} {}\n", name, first, unit);
+    fmt::print("{:10} {} {} of cylinders, {} {} of the cones that a run draws and `analyse` counts\n", name, first,
+               unit, second, unit);
+}
+
 void print_text(const MeasuredPlants& plants, const MeasuredSummary& summary) {
     const glm::dvec3 size = summary.extent[1] - summary.extent[0];
     fmt::print("{}: unit {}, {} points upwards\n", plants.path.string(), plants.unit, plants.up);
@@ -50,8 +62,11 @@ void print_text(const MeasuredPlants& plants, const MeasuredSummary& summary) {
     fmt::print(
         "length     {}{}\n", in_words(summary.length),
         summary.link_length > 0 ? ", and " + in_words(summary.link_length) + " of links, which belong to no axis" : "");
-    fmt::print("surface    {} m2\n", format_general(summary.surface));
-    fmt::print("volume     {} m3\n", format_general(summary.volume));
+    print_both("surface", summary.surface, summary.drawn_surface, "m2");
+    print_both("volume", summary.volume, summary.drawn_volume, "m3");
+    if (summary.organs > 0) {
+        fmt::print("organs     {}, with {} m2 on one side\n", summary.organs, format_general(summary.organ_area));
+    }
     fmt::print("size       {} wide, {} high, {} deep\n", in_words(size.x), in_words(size.y), in_words(size.z));
     for (const auto& [axis, name] : {std::pair{0, 'x'}, {1, 'y'}, {2, 'z'}}) {
         fmt::print("  {}        {} to {}{}\n", name, in_words(summary.extent[0][axis]),

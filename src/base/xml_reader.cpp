@@ -3,6 +3,7 @@
 #include <climits>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <expat.h>
 
@@ -70,9 +71,15 @@ XmlReader::XmlReader(std::string name, int most_depth)
 
 XmlReader::~XmlReader() = default;
 
-void XmlReader::parse(const std::string& text) {
+void XmlReader::parse(std::string text) {
     if (text.size() > INT_MAX) fail("this file is too long");
-    const XML_Status status = XML_Parse(parser_.get(), text.data(), static_cast<int>(text.size()), 1);
+    // Into expat's own memory, where it would copy the text in any case, so that only one of both remains.
+    const auto length = static_cast<int>(text.size());
+    void* const buffer = XML_GetBuffer(parser_.get(), std::max(length, 1));
+    if (!buffer) fail("this file is too long");
+    std::copy(text.begin(), text.end(), static_cast<char*>(buffer));
+    std::string().swap(text);
+    const XML_Status status = XML_ParseBuffer(parser_.get(), length, 1);
     if (mistake_) std::rethrow_exception(mistake_);
     if (status != XML_STATUS_OK) fail(XML_ErrorString(XML_GetErrorCode(parser_.get())));
 }

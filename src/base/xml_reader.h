@@ -43,7 +43,7 @@ protected:
 
     /// Calls begin() and end() for each element in turn. Throws UserError with the place of a mistake, and what they
     /// throw.
-    void parse(const std::string& text);
+    void parse(std::string text);
 
     virtual void begin(const std::string& element, const XmlAttributes& attributes) = 0;
     virtual void end(const std::string& element) = 0;

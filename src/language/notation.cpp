@@ -3,6 +3,7 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
 
+#include "language/text/other_language.h"
 #include "language/text/plain_text.h"
 
 #include <fmt/format.h>
@@ -74,11 +75,8 @@ bool holds_measured_plants(const std::filesystem::path& path) {
 MeasuredPlants read_measured_plants(const std::filesystem::path& path, const MeasuredOptions& options) {
     const NotationType* const notation = notation_of(path);
     if (notation && notation->measure) return plants_of(*notation, read_text(path), path, options);
-    if (head_of(path).starts_with("MATLAB")) {
-        throw UserError(
-            fmt::format("{} is a MATLAB file, as TreeQSM writes: write its cylinders as a table there, with "
-                        "writetable(struct2table(QSM.cylinder), 'tree.csv')",
-                        path.string()));
+    if (const std::optional<std::string> other = other_language(head_of(path), path)) {
+        throw UserError(fmt::format("{}: {}", path.string(), *other));
     }
     const std::string extensions = extensions_of([](const NotationType& known) { return known.measure != nullptr; });
     throw UserError(fmt::format("{} is no file of measured plants: their extensions are{}", path.string(), extensions));

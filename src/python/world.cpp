@@ -4,6 +4,7 @@
 
 #include "python/bindings.h"
 
+#include <array>
 #include <atomic>
 #include <optional>
 
@@ -135,6 +136,12 @@ void advance(BoundWorld& bound) {
     bound.world.step();
 }
 
+std::optional<std::array<double, 3>> origin_of(const BoundWorld& bound) {
+    const std::shared_ptr<MapOrigin>& origin = bound.world.scene().origin;
+    if (!origin || !origin->value()) return std::nullopt;
+    return std::array{origin->value()->x, origin->value()->y, origin->value()->z};
+}
+
 py::dict stage_seconds(const BoundWorld& bound) {
     const StageTimes& times = bound.world.times();
     py::dict seconds;
@@ -184,6 +191,7 @@ void bind_world(py::module_& module) {
         .def_readonly("started", &BoundWorld::started)
         .def_property_readonly("steps_done", [](const BoundWorld& bound) { return bound.world.steps_done(); })
         .def_property_readonly("stage_seconds", stage_seconds)
+        .def_property_readonly("origin", origin_of)
         .def_property_readonly("last_step", [](const BoundWorld& bound) { return bound.world.last_step(); })
         .def_property_readonly("at_end", [](const BoundWorld& bound) { return bound.world.at_end(); });
 }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <numbers>
 #include <sstream>
 
 namespace {
@@ -220,4 +221,31 @@ TEST_CASE("analyse tells the uptake over depth, and when a plant first lacked wa
     CHECK(std::stod(cell(row, "first_time")) == Approx(first_stress));
     CHECK(std::stod(cell(row, "transpired")) == Approx(transpired_in_all).epsilon(1e-6));
     CHECK_THAT(outcome.out, Catch::Contains(fmt::format("lacked water first at {} day", first_stress)));
+}
+
+TEST_CASE("info says the volume of cylinders and that of the cones which a run draws and analyse counts",
+          "[measured]") {
+    const Workplace place;
+    place.write("tree.csv",
+                "radius,length,start_x,start_y,start_z,axis_x,axis_y,axis_z,parent,extension,branch\n"
+                "0.1,1,0,0,0,0,0,1,0,2,1\n0.05,1,0,0,1,0,0,1,1,3,1\n0.04,1,0,0,2.5,0,0,1,2,0,1\n"
+                "0.02,0.5,0.1,0,0.5,1,0,0,1,0,2\n");
+    const nlohmann::json info = measures_of(place, "tree.csv");
+    constexpr double pi = std::numbers::pi;
+    CHECK(info["volume"].get<double>() == Approx(pi * (0.01 + 0.0025 + 0.0016 + 0.0002)));
+    // The second cylinder tapers; behind the gap and in the branch nothing does.
+    CHECK(info["drawn_volume"].get<double>() == Approx(pi * (0.01 + 0.0175 / 3 + 0.0016 + 0.0002)));
+    REQUIRE(place.run("import tree.csv --output tree.toml").code == 0);
+    REQUIRE(place.run("run tree.toml --output run --quiet").code == 0);
+    REQUIRE(place.run("analyse run").code == 0);
+    std::istringstream rows(text_of(place.path() / "run/analysis/analysis.csv"));
+    std::string names, values;
+    std::getline(rows, names);
+    std::getline(rows, values);
+    std::map<std::string, std::string> counted;
+    for (std::size_t i = 0; i < espalier::csv_cells(names).size(); ++i) {
+        counted[espalier::csv_cells(names)[i]] = espalier::csv_cells(values)[i];
+    }
+    CHECK(std::stod(counted["volume"]) == Approx(info["drawn_volume"].get<double>()).epsilon(1e-6));
+    CHECK(std::stod(counted["surface"]) == Approx(info["drawn_surface"].get<double>()).epsilon(1e-6));
 }

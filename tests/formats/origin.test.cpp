@@ -6,6 +6,9 @@
 #include "temporary_folder.h"
 
 #include <nlohmann/json.hpp>
+#include <openvdb/io/File.h>
+
+#include <fstream>
 
 using namespace espalier;
 
@@ -56,4 +59,26 @@ TEST_CASE("an MTG of a run on a map is read back where it was", "[export][origin
         CHECK(shift.z == Approx(-5432100.5).epsilon(1e-12));
         CHECK(summary_of(there).length == Approx(summary_of(here).length));
     }
+}
+
+TEST_CASE("a field of a run on a map has the origin as metadata of its grid, in its own axes", "[export][origin]") {
+    const RecordedFolder recorded;
+    const std::filesystem::path record = recorded.folder.path / "run.json";
+    auto json = nlohmann::ordered_json::parse(text_of(record));
+    json["origin"] = {592700, 250, -5432100.5};
+    std::ofstream(record) << json.dump();
+    const RecordedRun run(recorded.folder.path);
+    const RecordedFrame* const frames[] = {&run.frame(4)};
+    for (const char up : {'y', 'z'}) {
+        std::vector<ExportedFile> files;
+        ExportJob job{
+            run, frames, {}, recorded.folder.path / "export", [&](const ExportedFile& file) { files.push_back(file); }};
+        job.options.up = up;
+        export_run(job, std::vector<std::string>{"vdb"});
+        openvdb::io::File file(files.at(0).path.string());
+        file.open(false);
+        const auto origin = file.readGridMetadata("light")->metaValue<openvdb::Vec3d>("origin");
+        CHECK(origin == (up == 'y' ? openvdb::Vec3d(592700, 250, -5432100.5) : openvdb::Vec3d(592700, 5432100.5, 250)));
+    }
+    CHECK(!Exported("vdb").run.origin());
 }

@@ -124,7 +124,7 @@ double length_of(const World& world) {
 
 TEST_CASE("roots: tips stop at the walls and the floor of a pot, whatever the length of a step", "[roots-models]") {
     for (const std::string model : {"maize", "wheat", "lupine", "split", "impeded", "mortal", "barley"}) {
-        for (const double step : {0.5, 1.0}) {
+        for (const double step : {0.5, 1.0, 2.5}) {
             if (model == "barley" && step != 0.5) continue;  // it has a step of its own
             INFO(model << ", steps of " << step << " d");
             const auto pot = in_pot(model, step);

@@ -31,7 +31,8 @@ struct TranslatedText {
 /// plants.
 struct NotationType {
     using Translate = std::function<TranslatedText(const std::string& text, const std::filesystem::path& path)>;
-    using Measure = std::function<MeasuredPlants(const std::string& text, const std::filesystem::path& path,
+    /// Has the text to itself, so that it need not keep all of a large file while it makes plants of it.
+    using Measure = std::function<MeasuredPlants(std::string text, const std::filesystem::path& path,
                                                  const MeasuredOptions& options)>;
 
     std::string name;       ///< what the file is called in messages: "pgraph"

@@ -96,6 +96,20 @@ InternodeIndex linked_bearer(const AxisTree& tree, AxisIndex number, const std::
     return order > 0 ? nearest_internode(tree, tree.axes[last_of_order[order - 1]], first.base) : InternodeIndex();
 }
 
+/// The last internode of the axis that goes on behind a gap; none if this axis is another one. Measured plants draw the
+/// first piece behind a gap with G (src/language/measured/drawing.cpp). In grown plants, too, there are no brackets
+/// around axes of order 0; but stems beside each other may have that order by @Ax.
+InternodeIndex before_gap(const AxisTree& tree, AxisIndex number, const std::vector<AxisIndex>& last_of_order) {
+    const AxisTree::Axis& axis = tree.axes[number];
+    const FrameInternode& first = tree.internodes[axis.first];
+    if (first.order >= last_of_order.size() || last_of_order[first.order].is_none()) return {};
+    const AxisTree::Axis& before = tree.axes[last_of_order[first.order]];
+    const InternodeIndex last = before.end.before();
+    const bool is_nearest = glm::distance(tree.internodes[last].tip, first.base) <
+                            glm::distance(tree.internodes[before.first].base, first.base);
+    return axis.is_unmarked || (first.order == 0 && is_nearest) ? last : InternodeIndex();
+}
+
 /// Whether an axis is another, or is borne by it, directly or not.
 bool stands_on(const AxisTree& tree, const RowsOf<FrameInternode, AxisIndex>& axis_of, AxisIndex axis,
                AxisIndex other) {
@@ -128,7 +142,8 @@ AxisTree axis_tree(const FrameGeometry& geometry, const MeshOptions& options) {
         const bool begins = tree.axes.empty() || tree.internodes.back().axis != internode.axis;
         if (begins) {
             if (!internode.bearer.is_none()) tree.axes_borne[internode.bearer].push_back(tree.axes.next());
-            tree.axes.push_back({internode.plant, here, here, internode.bearer});
+            const bool is_unmarked = geometry.symbol_names[internode.symbol] == "G";
+            tree.axes.push_back({internode.plant, here, here, internode.bearer, is_unmarked});
         }
         tree.axes.back().end = here.next();
         tree.internodes.push_back(internode);
@@ -156,13 +171,24 @@ void settle_bearers(AxisTree& tree) {
             if (!bearer.is_none() && !stands_on(tree, axis_of, axis_of[bearer], i)) axis.bearer = bearer;
         };
         if (axis.bearer.is_none()) hang_on(bearer_drawn_later(tree, i));
-        if (axis.bearer.is_none() && first.bearer.is_none()) hang_on(linked_bearer(tree, i, last_of_order));
+        if (axis.bearer.is_none()) {
+            const InternodeIndex linked = linked_bearer(tree, i, last_of_order);
+            const InternodeIndex last = before_gap(tree, i, last_of_order);
+            hang_on(last.is_none() ? linked : last);
+        }
         last_of_order.resize(first.order + std::size_t(1));
         last_of_order.back() = i;
     }
     for (InternodeIndex k(0); k < tree.internodes.next(); ++k) tree.axes_borne[k].clear();
     for (AxisIndex i(0); i < tree.axes.next(); ++i) {
-        if (!tree.axes[i].bearer.is_none()) tree.axes_borne[tree.axes[i].bearer].push_back(i);
+        AxisTree::Axis& axis = tree.axes[i];
+        if (axis.bearer.is_none()) continue;
+        std::vector<AxisIndex>& borne = tree.axes_borne[axis.bearer];
+        const bool is_at_end = axis.bearer.next() == tree.axes[axis_of[axis.bearer]].end;
+        axis.goes_on =
+            is_at_end && tree.internodes[axis.first].order == tree.internodes[axis.bearer].order &&
+            std::none_of(borne.begin(), borne.end(), [&](AxisIndex each) { return tree.axes[each].goes_on; });
+        borne.push_back(i);
     }
 }
 

@@ -13,7 +13,9 @@ struct AxisTree {
     struct Axis {
         std::uint32_t plant;
         InternodeIndex first, end;
-        InternodeIndex bearer;  ///< the internode it stands on, or none
+        InternodeIndex bearer;     ///< the internode it stands on, or none
+        bool is_unmarked = false;  ///< its first internode is drawn with G
+        bool goes_on = false;      ///< with what its bearer is the last internode of, at once or behind a gap
     };
     using AxisIndex = Index<Axis>;
 
@@ -50,7 +52,8 @@ AxisTree axis_tree(const FrameGeometry& geometry, const MeshOptions& options);
 
 /// Bearers as files that nest axes need them. Axes of one order that begin together stand side by side, on what bears
 /// the first of them. An axis of a higher order that begins beside all others hangs by a link on the nearest end of an
-/// internode of the axis before it whose order is lower.
+/// internode of the axis before it whose order is lower; or it goes on behind a gap, with the last axis of its own
+/// order.
 void settle_bearers(AxisTree& tree);
 
 }  // namespace espalier::archive

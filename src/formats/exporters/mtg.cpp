@@ -36,26 +36,15 @@ private:
     using AxisIndex = AxisTree::AxisIndex;
     using Columns = RowsOf<AxisTree::Axis, std::uint32_t>;
 
-    // What goes on behind a gap is an axis of its own that follows: no more is borne there.
-    bool follows(AxisIndex number) const {
-        const AxisTree::Axis& axis = tree_.axes[number];
-        if (axis.bearer.is_none() || tree_.internodes[axis.first].order != tree_.internodes[axis.bearer].order) {
-            return false;
-        }
-        return axis.bearer.next() == end_of_[axis.bearer];
-    }
+    bool follows(AxisIndex number) const { return tree_.axes[number].goes_on; }
 
     // Each axis stands one column to the right of what bears it, unless it goes on. What bears it may be drawn later.
     Columns columns() {
         constexpr std::uint32_t unknown = 0xFFFFFFFF;
         RowsOf<FrameInternode, AxisIndex> axis_of(tree_.internodes.size());
-        end_of_ = RowsOf<FrameInternode, InternodeIndex>(tree_.internodes.size());
         for (AxisIndex number(0); number < tree_.axes.next(); ++number) {
             const AxisTree::Axis& axis = tree_.axes[number];
-            for (InternodeIndex i = axis.first; i < axis.end; ++i) {
-                end_of_[i] = axis.end;
-                axis_of[i] = number;
-            }
+            for (InternodeIndex i = axis.first; i < axis.end; ++i) axis_of[i] = number;
         }
         Columns of_axis(tree_.axes.size(), unknown);
         std::vector<AxisIndex> path;
@@ -176,7 +165,6 @@ private:
 
     const ExportJob& job_;
     const AxisTree& tree_;
-    RowsOf<FrameInternode, InternodeIndex> end_of_;  ///< of its axis
     Columns column_of_;
     std::size_t width_ = 1;
     std::string prefix_;

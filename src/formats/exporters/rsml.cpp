@@ -57,6 +57,7 @@ private:
                                                 {"birth", "integer", "step"},
                                                 {"order", "integer", "1"},
                                                 {"parent-node", "integer", "1"},
+                                                {"continues", "integer", "1"},
                                                 {"identity", "string", "1"}}) {
             put("      <property-definition>\n        <label>{}</label>\n        <type>{}</type>\n"
                 "        <unit>{}</unit>\n      </property-definition>\n",
@@ -65,12 +66,14 @@ private:
         put("    </property-definitions>\n  </metadata>\n  <scene>\n");
     }
 
-    // Laterals of laterals without recursion: there may be any number of orders.
+    // Laterals of laterals without recursion: there may be any number of orders. What goes on behind a gap stands
+    // behind the piece before it, not within: there may be any number of gaps.
     void add_with_laterals(AxisIndex trunk) {
         struct Open {
             AxisIndex axis;
             InternodeIndex internode;
             std::size_t lateral;
+            AxisIndex further = {};
         };
         std::vector<Open> open;
         const auto begin = [&](AxisIndex axis) {
@@ -81,13 +84,16 @@ private:
         while (!open.empty()) {
             Open& top = open.back();
             if (top.internode == tree_.axes[top.axis].end) {
+                const AxisIndex further = top.further;
                 open.pop_back();
                 put("      </root>\n");
+                if (!further.is_none()) begin(further);
             } else if (top.lateral == tree_.axes_borne[top.internode].size()) {
                 ++top.internode;
                 top.lateral = 0;
             } else {
-                begin(tree_.axes_borne[top.internode][top.lateral++]);
+                const AxisIndex borne = tree_.axes_borne[top.internode][top.lateral++];
+                tree_.axes[borne].goes_on ? void(top.further = borne) : begin(borne);
             }
         }
     }
@@ -105,18 +111,34 @@ private:
         put("        <properties>\n          <length value=\"{}\"/>\n          <birth value=\"{}\"/>\n"
             "          <order value=\"{}\"/>\n          <identity value=\"{}\"/>\n",
             format_exact(length), first.birth, first.order, first.identity);
-        if (depth > 0) put("          <parent-node value=\"{}\"/>\n", node_of_bearer(axis));
+        if (axis.goes_on) {
+            put("          <continues value=\"{}\"/>\n", axis_of(axis.bearer).number);
+        } else if (depth > 0 && !hangs_at_gap(axis)) {
+            put("          <parent-node value=\"{}\"/>\n", node_of_bearer(axis));
+        }
         put("        </properties>\n");
         add_geometry(axis);
+    }
+
+    /// What an internode belongs to.
+    AxisIndex axis_of(InternodeIndex internode) const {
+        const auto behind =
+            std::upper_bound(tree_.axes.begin(), tree_.axes.end(), internode,
+                             [](InternodeIndex each, const AxisTree::Axis& other) { return each < other.first; });
+        return AxisIndex(static_cast<std::size_t>(std::prev(behind) - tree_.axes.begin()));
+    }
+
+    /// Beside the end of its bearer, which goes on behind a gap: it may hang within that, where no node is.
+    bool hangs_at_gap(const AxisTree::Axis& axis) const {
+        const std::vector<AxisIndex>& borne = tree_.axes_borne[axis.bearer];
+        return tree_.internodes[axis.first].base != tree_.internodes[axis.bearer].tip &&
+               std::any_of(borne.begin(), borne.end(), [&](AxisIndex each) { return tree_.axes[each].goes_on; });
     }
 
     /// The node of the bearing axis, from 0, that an axis stands on: the tip of its bearer, or where both begin.
     std::int32_t node_of_bearer(const AxisTree::Axis& axis) const {
         const InternodeIndex bearer = axis.bearer;
-        const auto behind = std::upper_bound(
-            tree_.axes.begin(), tree_.axes.end(), bearer,
-            [](InternodeIndex internode, const AxisTree::Axis& other) { return internode < other.first; });
-        const AxisTree::Axis& bearing = *std::prev(behind);
+        const AxisTree::Axis& bearing = tree_.axes[axis_of(bearer)];
         const glm::vec3 base = tree_.internodes[axis.first].base;
         const FrameInternode& internode = tree_.internodes[bearer];
         const bool at_tip = glm::distance(base, internode.tip) <= glm::distance(base, internode.base);
@@ -178,7 +200,8 @@ const Registered<ExporterType> entry{
      "For CPlantBox, --up z.\n"
      "An axis that begins beside the one that bears it hangs on the nearest of its nodes. Read again, it is the same "
      "plant.\n"
-     "Lost: organs and surfaces, parameters; a gap within an axis, which becomes two",
+     "What goes on behind a gap is a root\n"
+     "of its own, whose property continues is the ID of the piece before it. Lost: organs and surfaces, parameters",
      construct<Rsml>}};
 
 }  // namespace

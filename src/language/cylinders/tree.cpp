@@ -24,7 +24,8 @@ constexpr double meets = 2e-6;  ///< m; what tables round
 struct Cylinder {
     glm::dvec3 start, end;
     double radius = 0;
-    std::int64_t extension = -1, branch = -1, order = -1;
+    std::int32_t branch = -1;
+    std::int32_t goes_on = -1;  ///< the next of its branch or, where a table has no extensions, its order
 };
 
 class Reader {
@@ -36,7 +37,11 @@ public:
         upright_ = measured::upright(up_);
     }
 
-    MeasuredPlants read(std::string_view text) {
+    void read(std::string_view text) {
+        // A row has a number and a separator in each of ten columns or more.
+        const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
+        parts_.reserve(std::min(lines, text.size() / 20));
+        cylinders_.reserve(parts_.capacity());
         for (std::size_t begin = 0; begin < text.size();) {
             const std::string_view line = measured::next_line(text, begin);
             ++line_;
@@ -49,7 +54,44 @@ public:
             }
         }
         if (cylinders_.empty()) fail(0, "this file has no cylinders");
-        return finished();
+    }
+
+    MeasuredPlants plants() {
+        // The number that means none is one below the first. All tables count from the least number on.
+        const std::int32_t before = header_.dialect->counts_from_one ? 0 : -1;
+        const auto is_root = [before](std::int32_t of) { return of == before || of < 0; };
+        const auto next = [&](std::uint32_t part, const std::vector<std::uint32_t>& borne) {
+            return continuing(part, borne);
+        };
+        const std::vector<measured::PartAxis> axes = measured::axes_of_parts(parts_, is_root, next, name_);
+        MeasuredPlants plants;
+        std::vector<measured::LooseAxis> loose;
+        loose.reserve(axes.size());
+        for (const measured::PartAxis& axis : axes) {
+            measured::LooseAxis& out = loose.emplace_back();
+            if (axis.bearer == measured::PartAxis::none) {
+                out.plant = plants.plants.size();
+                plants.plants.push_back({});
+            } else {
+                out.bearer = axis.bearer;
+                out.plant = loose[axis.bearer].plant;
+            }
+            out.place = {name_, parts_[axis.parts[0]].line, 1};
+            const std::int32_t number = cylinders_[axis.parts[0]].branch;
+            out.label = number >= 0 ? fmt::format("branch {}", number) : "";
+        }
+        std::vector<measured::NamedPart>().swap(parts_);
+        for (std::size_t i = 0; i < axes.size(); ++i) {
+            for (const std::uint32_t part : axes[i].parts) add(cylinders_[part], loose[i].nodes);
+            loose[i].nodes.shrink_to_fit();
+        }
+        std::vector<Cylinder>().swap(cylinders_);
+        plants.axes = measured::joined(std::move(loose));
+        plants.unit = unit_;
+        plants.up = up_;
+        tell();
+        plants.warnings = notes_.warnings();
+        return plants;
     }
 
 private:
@@ -74,15 +116,29 @@ private:
         first_line_ = line_ + 1;
     }
 
+    /// Between semicolons, a comma may stand for the point.
+    std::optional<double> number_in(std::string_view cell) const {
+        const std::size_t comma = header_.separator == ';' ? cell.find(',') : std::string_view::npos;
+        if (comma == std::string_view::npos) return finite_number(cell);
+        std::string with_point(cell);
+        with_point[comma] = '.';
+        return finite_number(with_point);
+    }
+
     double number(Field field) const {
         const std::size_t column = *header_.column[field];
-        const std::optional<double> value = column < cells_.size() ? finite_number(cells_[column]) : std::nullopt;
+        const std::optional<double> value = column < cells_.size() ? number_in(cells_[column]) : std::nullopt;
         if (value && std::abs(*value) < largest) return *value;
         fail(column, fmt::format("column {} of a cylinder is a number, not '{}'", header_.names[column],
                                  column < cells_.size() ? escaped(cells_[column].substr(0, 40)) : ""));
     }
 
-    std::int64_t whole(Field field) const { return static_cast<std::int64_t>(std::llround(number(field))); }
+    std::int32_t whole(Field field) const {
+        const double value = number(field);
+        if (std::abs(value) <= measured::NamedPart::largest) return static_cast<std::int32_t>(std::lround(value));
+        fail(*header_.column[field], fmt::format("column {} of a cylinder is a number up to {}",
+                                                 header_.names[*header_.column[field]], measured::NamedPart::largest));
+    }
 
     bool has(Field field) const { return header_.column[field].has_value(); }
 
@@ -94,8 +150,8 @@ private:
             notes_.unused("a cell below no name of the header", {name_, line_, 1});
         }
         measured::NamedPart part;
-        const auto first = static_cast<std::int64_t>(header_.dialect->counts_from_one ? 1 : 0);
-        part.id = has(id) ? whole(id) : first + static_cast<std::int64_t>(parts_.size());
+        const std::int32_t first = header_.dialect->counts_from_one ? 1 : 0;
+        part.id = has(id) ? whole(id) : first + static_cast<std::int32_t>(parts_.size());
         part.parent = whole(parent);
         part.line = line_;
         Cylinder cylinder;
@@ -106,9 +162,9 @@ private:
         drawn_ += glm::distance(cylinder.start, cylinder.end);
         cylinder.radius = number(radius);
         if (cylinder.radius < 0) fail(*header_.column[radius], "a radius is not below 0");
-        if (has(extension)) cylinder.extension = whole(extension);
         if (has(branch)) cylinder.branch = whole(branch);
-        if (has(order)) cylinder.order = whole(order);
+        if (has(order)) cylinder.goes_on = whole(order);
+        if (has(extension)) cylinder.goes_on = whole(extension);
         parts_.push_back(part);
         cylinders_.push_back(cylinder);
     }
@@ -121,38 +177,6 @@ private:
     }
 
     glm::dvec3 placed(const glm::dvec3& at) const { return metres_ * (upright_ * at); }
-
-    MeasuredPlants finished() {
-        // The number that means none is one below the first. All tables count from the least number on.
-        const std::int64_t before = header_.dialect->counts_from_one ? 0 : -1;
-        const auto is_root = [before](std::int64_t of) { return of == before || of < 0; };
-        const auto next = [&](std::uint32_t part, const std::vector<std::uint32_t>& borne) {
-            return continuing(part, borne);
-        };
-        const std::vector<measured::PartAxis> axes = measured::axes_of_parts(parts_, is_root, next, name_);
-        MeasuredPlants plants;
-        std::vector<measured::LooseAxis> loose;
-        for (const measured::PartAxis& axis : axes) {
-            measured::LooseAxis& out = loose.emplace_back();
-            if (axis.bearer == measured::PartAxis::none) {
-                out.plant = plants.plants.size();
-                plants.plants.push_back({});
-            } else {
-                out.bearer = axis.bearer;
-                out.plant = loose[axis.bearer].plant;
-            }
-            out.place = {name_, parts_[axis.parts[0]].line, 1};
-            const std::int64_t number = cylinders_[axis.parts[0]].branch;
-            out.label = number >= 0 ? fmt::format("branch {}", number) : "";
-            for (const std::uint32_t part : axis.parts) add(cylinders_[part], out.nodes);
-        }
-        plants.axes = measured::joined(std::move(loose));
-        plants.unit = unit_;
-        plants.up = up_;
-        tell();
-        plants.warnings = notes_.warnings();
-        return plants;
-    }
 
     /// Each keeps its own length: where it does not begin at the end of the one before, the gap is a link.
     void add(const Cylinder& cylinder, std::vector<MeasuredNode>& nodes) const {
@@ -168,8 +192,8 @@ private:
     std::size_t continuing(std::uint32_t part, const std::vector<std::uint32_t>& borne) const {
         const Cylinder& below = cylinders_[part];
         const auto goes_on = [&](std::uint32_t each) {
-            if (has(extension)) return parts_[each].id == below.extension;
-            return cylinders_[each].branch == below.branch && cylinders_[each].order == below.order;
+            if (has(extension)) return parts_[each].id == below.goes_on;
+            return cylinders_[each].branch == below.branch && cylinders_[each].goes_on == below.goes_on;
         };
         return static_cast<std::size_t>(std::find_if(borne.begin(), borne.end(), goes_on) - borne.begin());
     }
@@ -203,10 +227,11 @@ private:
 
 }  // namespace
 
-MeasuredPlants read(const std::string& text, const std::string& name, const MeasuredOptions& options) {
-    std::string_view whole = text;
-    if (whole.starts_with("\xEF\xBB\xBF")) whole.remove_prefix(3);
-    return Reader(name, options).read(whole);
+MeasuredPlants read(std::string text, const std::string& name, const MeasuredOptions& options) {
+    Reader reader(name, options);
+    reader.read(text);
+    std::string().swap(text);
+    return reader.plants();
 }
 
 }  // namespace espalier::language::cylinders

@@ -8,6 +8,6 @@
 namespace espalier::language::cylinders {
 
 /// Throws UserError with the place of a mistake.
-MeasuredPlants read(const std::string& text, const std::string& name, const MeasuredOptions& options);
+MeasuredPlants read(std::string text, const std::string& name, const MeasuredOptions& options);
 
 }  // namespace espalier::language::cylinders

@@ -286,9 +286,10 @@ private:
 
 }  // namespace
 
-MeasuredPlants read(const std::string& text, const std::string& name, const MeasuredOptions& options) {
+MeasuredPlants read(std::string text, const std::string& name, const MeasuredOptions& options) {
     measured::Notes notes(name);
     Grid grid = read_grid(text, name, notes);
+    std::string().swap(text);
     MeasuredPlants plants = Building(std::move(grid), name, options, notes).plants();
     plants.warnings = notes.warnings();
     return plants;

@@ -47,7 +47,8 @@ private:
     struct Open {
         std::size_t axis, node = 0;
         std::size_t lateral = 0;  ///< of those it bears
-        glm::dvec3 at;            ///< of the turtle
+        std::size_t organ = 0;
+        glm::dvec3 at;  ///< of the turtle
     };
 
     void append(lsystem::LetterId letter, std::initializer_list<double> values) {
@@ -61,24 +62,28 @@ private:
 
     // Laterals of laterals without recursion: there may be any number of orders.
     void add_with_laterals(std::size_t first, const glm::dvec3& from) {
-        std::vector<Open> open{{first, 0, 0, from}};
+        std::vector<Open> open{{first, 0, 0, 0, from}};
         link(from, plants_.axes[first].nodes[0]);
         while (!open.empty()) {
             Open& top = open.back();
             const MeasuredAxis& axis = plants_.axes[top.axis];
             const glm::dvec3 here = axis.nodes[top.node].at;
+            for (; top.organ < axis.organs.size() && axis.organs[top.organ].on_node == top.node; ++top.organ) {
+                draw(axis.organs[top.organ], here);
+            }
             if (top.lateral < borne_[top.axis].size()) {
                 const std::size_t lateral = borne_[top.axis][top.lateral];
                 if (plants_.axes[lateral].on_node == top.node) {
                     ++top.lateral;
                     string_.append(Alphabet::open_bracket);
                     link(here, plants_.axes[lateral].nodes[0]);
-                    open.push_back({lateral, 0, 0, here});
+                    open.push_back({lateral, 0, 0, 0, here});
                     continue;
                 }
             }
             if (top.node + 1 < axis.nodes.size()) {
-                segment(here, axis.nodes[++top.node]);
+                const bool is_behind_gap = top.node > 0 && axis.nodes[top.node].linked;
+                segment(here, axis.nodes[++top.node], is_behind_gap);
                 continue;
             }
             append(letters_.tip, {static_cast<double>(axis.order)});
@@ -87,26 +92,44 @@ private:
         }
     }
 
-    void link(const glm::dvec3& from, const MeasuredNode& node) {
-        const double length = glm::distance(from, node.at);
+    void link(const glm::dvec3& from, const MeasuredNode& node) { move(from, node.at); }
+
+    void move(const glm::dvec3& from, const glm::dvec3& to) {
+        const double length = glm::distance(from, to);
         if (!(length > 1e-9)) return;
-        const glm::dvec3 heading = (node.at - from) / length;
-        head(heading);
+        head((to - from) / length);
         append(letters_.move, {length});
     }
 
-    void segment(const glm::dvec3& from, const MeasuredNode& node) {
+    /// A polygon for each face: moves within it mark its vertices.
+    void draw(const MeasuredOrgan& organ, const glm::dvec3& from) {
+        const MeasuredMesh& mesh = plants_.meshes[organ.mesh];
+        const std::vector<glm::dvec3> points = points_of(mesh, organ);
+        for (const std::vector<std::uint32_t>& face : mesh.faces) {
+            string_.append(Alphabet::open_bracket);
+            move(from, points[face[0]]);
+            string_.append(letters_.open_polygon);
+            string_.append(letters_.vertex);
+            for (std::size_t i = 1; i < face.size(); ++i) move(points[face[i - 1]], points[face[i]]);
+            string_.append(letters_.close_polygon);
+            string_.append(Alphabet::close_bracket);
+        }
+    }
+
+    /// What reads the drawing tells by G that an axis goes on behind a gap.
+    void segment(const glm::dvec3& from, const MeasuredNode& node, bool is_behind_gap) {
         const double length = glm::distance(from, node.at);
         if (!(length > 1e-9)) return;
         if (node.linked) return link(from, node);
         const glm::dvec3 heading = (node.at - from) / length;
         if (node.day > 0) {
-            append(letters_.node, {node.day, heading.x, heading.y, heading.z, length, node.diameter});
+            append(is_behind_gap ? letters_.node_behind : letters_.node,
+                   {node.day, heading.x, heading.y, heading.z, length, node.diameter});
             return;
         }
         append(letters_.width, {node.diameter});
         head(heading);
-        append(letters_.forward, {length});
+        append(is_behind_gap ? letters_.forward_behind : letters_.forward, {length});
     }
 
     const MeasuredPlants& plants_;
@@ -126,7 +149,12 @@ DrawingLetters::DrawingLetters(Alphabet& alphabet)
       axis_begin(alphabet.letter("A", 0)),
       axis(alphabet.letter("x", 1)),
       tip(alphabet.letter("Tip", 1)),
-      node(alphabet.letter("Node", 6)) {}
+      node(alphabet.letter("Node", 6)),
+      open_polygon(alphabet.letter("{", 0)),
+      vertex(alphabet.letter(".", 0)),
+      close_polygon(alphabet.letter("}", 0)),
+      forward_behind(alphabet.letter("G", 1)),
+      node_behind(alphabet.letter("NodeBehind", 6)) {}
 
 ModuleString drawing_of(const MeasuredPlants& plants, std::optional<std::size_t> plant, const DrawingLetters& letters) {
     std::vector<std::size_t> first_axes;
@@ -156,7 +184,8 @@ std::string text_of(const ModuleString& string, const Alphabet& alphabet) {
 }
 
 std::string sample_axiom(bool has_times) {
-    return std::string(" [@Ax(0) !(1) @R(1, 0, 0) f(1) F(1) Tip(0)]") + (has_times ? " Node(1, 1, 0, 0, 1, 1)" : "");
+    return std::string(" [@Ax(0) !(1) @R(1, 0, 0) f(1) F(1) G(1) { . f(1) } Tip(0)]") +
+           (has_times ? " Node(1, 1, 0, 0, 1, 1) NodeBehind(1, 1, 0, 0, 1, 1)" : "");
 }
 
 }  // namespace espalier::language::measured

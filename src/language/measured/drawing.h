@@ -14,6 +14,8 @@ struct DrawingLetters {
     explicit DrawingLetters(lsystem::Alphabet& alphabet);
 
     lsystem::LetterId at, width, heading, forward, move, axis_begin, axis, tip, node;  ///< of @R and @Ax the parts
+    lsystem::LetterId open_polygon, vertex, close_polygon;
+    lsystem::LetterId forward_behind, node_behind;  ///< of a piece that begins behind a gap of its axis
 };
 
 /// One plant, which begins where the turtle stands, or all at their places.

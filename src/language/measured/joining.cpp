@@ -37,6 +37,7 @@ void subtract(MapOrigin& origin, std::vector<LooseAxis>& axes) {
     const glm::dvec3 subtracted = origin.of(lower, upper, Place{axes.front().place.file, 1, 1});
     for (LooseAxis& axis : axes) {
         for (MeasuredNode& node : axis.nodes) node.at = MapOrigin::shifted(node.at, subtracted);
+        for (MeasuredOrgan& organ : axis.organs) organ.place[3] = MapOrigin::shifted(organ.place[3], subtracted);
     }
 }
 
@@ -102,8 +103,11 @@ private:
     void divide(std::size_t bearer, const std::vector<Stand>& stands) {
         const std::vector<MeasuredNode>& line = axes_[bearer].nodes;
         std::vector<MeasuredNode> nodes;
+        nodes.reserve(line.size() + stands.size());
         auto stand = stands.begin();
+        std::vector<std::size_t> place;  // of the nodes that were there
         for (std::size_t i = 0; i < line.size(); ++i) {
+            place.push_back(nodes.size());
             nodes.push_back(line[i]);
             double last = 0;
             for (; stand != stands.end() && stand->segment == i; ++stand) {
@@ -111,6 +115,7 @@ private:
                 on_node_[stand->axis] = nodes.size() - 1;
             }
         }
+        for (MeasuredOrgan& organ : axes_[bearer].organs) organ.on_node = place[organ.on_node];
         axes_[bearer].nodes = std::move(nodes);
     }
 
@@ -138,6 +143,9 @@ private:
             out.on_node = on_node_[i];
             out.order = out.bearer ? sorted[*out.bearer].order + 1 : 0;
             out.nodes = std::move(axis.nodes);
+            out.organs = std::move(axis.organs);
+            std::stable_sort(out.organs.begin(), out.organs.end(),
+                             [](const MeasuredOrgan& a, const MeasuredOrgan& b) { return a.on_node < b.on_node; });
             out.place = std::move(axis.place);
         }
         return sorted;

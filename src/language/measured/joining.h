@@ -15,6 +15,7 @@ struct LooseAxis {
     std::optional<std::size_t> bearer;   ///< an axis before it
     std::optional<std::size_t> on_node;  ///< of the bearer's nodes, where the file says one
     std::vector<MeasuredNode> nodes;     ///< none: what it bears is borne by its bearer
+    std::vector<MeasuredOrgan> organs;   ///< on these nodes
     Place place;
 };
 

@@ -26,14 +26,17 @@ std::string model_with_axiom(const MeasuredPlants& plants, const std::string& ax
     std::string text = fmt::format("/* Measured axes: {} */\n\n", escaped(plants.path.filename().string()));
     if (plants.has_times) text += "#define DT 1  /* days in a step; 0.01..100; days */\n";
     text += "module Tip(order)";
-    text += plants.has_times ? ", Node(day, x, y, z, length, diameter);\n" : ";\n";
+    text += plants.has_times ? ", Node(day, x, y, z, length, diameter), NodeBehind(day, x, y, z, length, diameter);\n"
+                             : ";\n";
     text += fmt::format("\nlsystem: 1\nderivation length: {}\naxiom:{}\n",
                         plants.has_times ? format_exact(last_day(plants)) + " / DT + 0.999" : "0", axiom);
     if (plants.has_times) {
         text +=
-            "\n/* a node appears on its day */\n"
+            "\n/* a node appears on its day; G: behind a gap of its axis */\n"
             "Node(day, x, y, z, length, diameter) : day <= DT + 0.000001 --> !(diameter) @R(x, y, z) F(length)\n"
-            "Node(day, x, y, z, length, diameter) --> Node(day - DT, x, y, z, length, diameter)\n";
+            "Node(day, x, y, z, length, diameter) --> Node(day - DT, x, y, z, length, diameter)\n"
+            "NodeBehind(day, x, y, z, length, diameter) : day <= DT + 0.000001 --> !(diameter) @R(x, y, z) G(length)\n"
+            "NodeBehind(day, x, y, z, length, diameter) --> NodeBehind(day - DT, x, y, z, length, diameter)\n";
     }
     return text + "endlsystem\n";
 }

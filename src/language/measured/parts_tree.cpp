@@ -35,9 +35,9 @@ private:
 }  // namespace
 
 std::vector<std::uint32_t> bearers_of(const std::vector<NamedPart>& parts,
-                                      const std::function<bool(std::int64_t parent)>& is_root,
+                                      const std::function<bool(std::int32_t parent)>& is_root,
                                       const std::string& file) {
-    std::unordered_map<std::int64_t, std::uint32_t> number_of;
+    std::unordered_map<std::int32_t, std::uint32_t> number_of;
     number_of.reserve(parts.size());
     for (std::uint32_t i = 0; i < parts.size(); ++i) {
         const auto [found, is_new] = number_of.try_emplace(parts[i].id, i);
@@ -79,7 +79,7 @@ std::vector<std::uint32_t> bearers_first(const std::vector<NamedPart>& parts, co
 }
 
 std::vector<PartAxis> axes_of_parts(
-    const std::vector<NamedPart>& parts, const std::function<bool(std::int64_t parent)>& is_root,
+    const std::vector<NamedPart>& parts, const std::function<bool(std::int32_t parent)>& is_root,
     const std::function<std::size_t(std::uint32_t part, const std::vector<std::uint32_t>& borne)>& next,
     const std::string& file) {
     const std::vector<std::uint32_t> bearers = bearers_of(parts, is_root, file);

@@ -12,8 +12,10 @@ namespace espalier::language::measured {
 
 /// A part, and which part bears it.
 struct NamedPart {
-    std::int64_t id = 0;
-    std::int64_t parent = 0;  ///< a number that no part has, of those that bear none
+    static constexpr double largest = 2e9;
+
+    std::int32_t id = 0;
+    std::int32_t parent = 0;  ///< a number that no part has, of those that bear none
     int line = 0;
 };
 
@@ -30,13 +32,13 @@ struct PartAxis {
 /// continues its axis, as an index into `borne`, or one beyond. Throws UserError for a number twice, an unknown parent
 /// and parts that bear each other in a ring.
 std::vector<PartAxis> axes_of_parts(
-    const std::vector<NamedPart>& parts, const std::function<bool(std::int64_t parent)>& is_root,
+    const std::vector<NamedPart>& parts, const std::function<bool(std::int32_t parent)>& is_root,
     const std::function<std::size_t(std::uint32_t part, const std::vector<std::uint32_t>& borne)>& next,
     const std::string& file);
 
 /// For each part, the part that bears it; PartAxis::none for roots. Throws as above.
 std::vector<std::uint32_t> bearers_of(const std::vector<NamedPart>& parts,
-                                      const std::function<bool(std::int64_t parent)>& is_root, const std::string& file);
+                                      const std::function<bool(std::int32_t parent)>& is_root, const std::string& file);
 
 /// The parts in an order in which each stands after the one that bears it. Throws as above for rings.
 std::vector<std::uint32_t> bearers_first(const std::vector<NamedPart>& parts, const std::vector<std::uint32_t>& bearers,

@@ -64,9 +64,9 @@ private:
     std::optional<glm::dvec3> raw(std::uint32_t v) const {
         const Vertex& of = vertex(v);
         if (of.row == none) return std::nullopt;
-        const Measures& row = graph_.rows[of.row];
-        if (std::isnan(row[x]) || std::isnan(row[y]) || std::isnan(row[z])) return std::nullopt;
-        return upright_ * glm::dvec3(row[x], row[y], row[z]);
+        const glm::dvec3 at(graph_.rows.at(of.row, x), graph_.rows.at(of.row, y), graph_.rows.at(of.row, z));
+        if (std::isnan(at.x) || std::isnan(at.y) || std::isnan(at.z)) return std::nullopt;
+        return upright_ * at;
     }
 
     std::optional<glm::dvec3> position(std::uint32_t v) const {
@@ -229,6 +229,7 @@ private:
         }
         const std::size_t foot = axis.nodes.size();
         fill(head, axis, stand);
+        axis.nodes.shrink_to_fit();
         if (axis.nodes.size() > foot) axes_.push_back(std::move(axis));
     }
 
@@ -358,10 +359,11 @@ private:
 
 }  // namespace
 
-MeasuredPlants read_axes(const std::string& text, const std::string& name, const MeasuredOptions& options) {
+MeasuredPlants read_axes(std::string text, const std::string& name, const MeasuredOptions& options) {
     measured::Notes notes(name);
     try {
         const Graph graph = read(text, name, notes);
+        std::string().swap(text);
         MeasuredPlants plants = Axes(graph, name, options, notes).plants();
         plants.warnings = notes.warnings();
         return plants;

@@ -160,4 +160,12 @@ std::vector<std::string> Columns::names() const {
     return names;
 }
 
+std::vector<Measure> Columns::measures_read() const {
+    std::vector<Measure> read;
+    for (const Column& column : columns_) {
+        if (column.is_read && column.measure) read.push_back(*column.measure);
+    }
+    return read;
+}
+
 }  // namespace espalier::language::mtg

@@ -28,6 +28,7 @@ public:
     /// The unit that was declared for a measure; "" if there is none.
     std::string unit_of(Measure measure) const;
     std::vector<std::string> names() const;
+    std::vector<Measure> measures_read() const;
     bool has_days() const { return has_days_; }
     bool has_dates() const { return has_dates_; }  ///< its days are counted from 1970
 

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <deque>
 #include <optional>
 #include <unordered_map>
 
@@ -73,15 +74,22 @@ public:
         if (graph_.unit.empty()) graph_.unit = columns_.unit_of(x);
         graph_.columns = columns_.names();
         graph_.has_times = columns_.has_days();
-        if (columns_.has_dates()) count_from_first_date();
+        if (columns_.has_dates()) graph_.rows.count_from_first_day();
+        gather_labels();
         return std::move(graph_);
     }
 
 private:
-    void count_from_first_date() {
-        double first = INFINITY;
-        for (const Measures& row : graph_.rows) first = std::isnan(row[day]) ? first : std::min(first, row[day]);
-        for (Measures& row : graph_.rows) row[day] -= first;
+    /// The graph needs the text no more.
+    void gather_labels() {
+        std::size_t length = 0;
+        for (const Vertex& vertex : graph_.vertices) length += vertex.label.size();
+        graph_.labels.reserve(length);
+        for (Vertex& vertex : graph_.vertices) {
+            const std::string_view label = vertex.label;
+            graph_.labels.insert(graph_.labels.end(), label.begin(), label.end());
+            vertex.label = {graph_.labels.data() + graph_.labels.size() - label.size(), label.size()};
+        }
     }
 
     [[noreturn]] void fail(std::size_t column, const std::string& message) const {
@@ -142,6 +150,7 @@ private:
         has_features_ = begin < cells_.size();
         entity_columns_ = has_features_ ? begin : static_cast<std::size_t>(-1);
         columns_.head(cells_, begin);
+        graph_.rows.keep(columns_.measures_read());
     }
 
     void read_row() {
@@ -182,7 +191,7 @@ private:
         Vertex& vertex = graph_.vertices[open_[column].last];
         Measures values = columns_.read(cells_, place(column + 1), notes_);
         if (vertex.row != none) {
-            const Measures& before = graph_.rows[vertex.row];
+            const Measures before = graph_.rows.row(vertex.row);
             for (std::size_t i = 0; i < values.size(); ++i) {
                 if (std::isnan(values[i]) || i == day) values[i] = before[i];
             }
@@ -191,8 +200,8 @@ private:
     }
 
     std::uint32_t row_of(const Measures& values) {
-        graph_.rows.push_back(values);
-        return static_cast<std::uint32_t>(graph_.rows.size() - 1);
+        graph_.rows.add(values);
+        return graph_.rows.size() == 0 ? none : static_cast<std::uint32_t>(graph_.rows.size() - 1);
     }
 
     void add_code(std::string_view code, bool goes_on, std::size_t column) {
@@ -203,7 +212,8 @@ private:
         std::size_t sharing = 0;  // the entities before the last that have its features
         for (std::size_t i = 0; i < items.size(); ++i) {
             const EntityCode& item = items[i];
-            if (column == 0 && !goes_on && i + 1 < items.size()) {
+            const bool may_be_there = at == none || at < old;
+            if (column == 0 && !goes_on && i + 1 < items.size() && may_be_there) {
                 if (const std::uint32_t there = found({at, item.relation, item.label}); there != none) {
                     at = keep(column, there);
                     continue;
@@ -248,8 +258,8 @@ private:
                                          before, item.relation, item.relation, item.label, longest_sequence));
         }
         for (int index = *begin + 1; index < *end; ++index) {
-            graph_.labels.push_back(fmt::format("{}{}", symbol, index));
-            at = add(at, item.relation, graph_.labels.back(), column);
+            sequence_labels_.push_back(fmt::format("{}{}", symbol, index));
+            at = add(at, item.relation, sequence_labels_.back(), column);
         }
         return add(at, item.relation, item.label, column);
     }
@@ -393,13 +403,14 @@ private:
     std::unordered_map<Passage, std::uint32_t, PassageHash> passed_;
     std::size_t later_rows_ = 0;
     Place later_;
+    std::deque<std::string> sequence_labels_;  ///< that do not stand in the text
     Graph graph_;
 };
 
 }  // namespace
 
 double Graph::measure(const Vertex& vertex, Measure which) const {
-    return vertex.row == none ? std::nan("") : rows[vertex.row][which];
+    return vertex.row == none ? std::nan("") : rows.at(vertex.row, which);
 }
 
 Graph read(const std::string& text, const std::string& name, measured::Notes& notes) {

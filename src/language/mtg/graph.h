@@ -3,9 +3,10 @@
 
 #include "espalier/base/error.h"
 
+#include "language/mtg/measure_rows.h"
+
 #include <array>
 #include <cstdint>
-#include <deque>
 #include <map>
 #include <string>
 #include <string_view>
@@ -19,14 +20,8 @@ namespace espalier::language::mtg {
 
 constexpr std::uint32_t none = 0xFFFFFFFF;
 
-/// What of a row is read.
-enum Measure { x, y, z, top, bottom, length, day, measures };
-
-/// In the file's units, `day` from the first date of the file; NaN where a row has no number.
-using Measures = std::array<double, measures>;
-
 struct Vertex {
-    std::string_view label;          ///< class and index, "I12"
+    std::string_view label;          ///< class and index, "I12"; within the graph's labels
     std::uint32_t parent = none;     ///< at the same scale, or a coarser one without parts
     std::uint32_t complex = none;    ///< what it is a part of
     std::uint32_t last_part = none;  ///< the last of its own parts
@@ -40,9 +35,9 @@ struct Vertex {
 
 struct Graph {
     std::vector<Vertex> vertices;  ///< each after its parent and its complex
-    std::vector<Measures> rows;
+    MeasureRows rows;
     std::map<std::uint32_t, std::string> plant_names;  ///< of vertices, from a column "plant"
-    std::deque<std::string> labels;                    ///< that do not stand in the text
+    std::vector<char> labels;                          ///< of all vertices, one after the other
     std::array<double, 3> origin{};    ///< of a line "# origin: x y z", m, which is added to coordinates
     std::string unit = {}, up = {};    ///< of lines "# unit: cm" and "# up: y"; "" if there is none
     std::string diameter_unit = {};    ///< of the columns of diameters
@@ -52,7 +47,7 @@ struct Graph {
     double measure(const Vertex& vertex, Measure which) const;
 };
 
-/// The text must outlive the graph. Throws UserError with the line and column of a mistake.
+/// Throws UserError with the line and column of a mistake.
 Graph read(const std::string& text, const std::string& name, measured::Notes& notes);
 
 }  // namespace espalier::language::mtg

@@ -17,6 +17,7 @@ namespace espalier::language::mtg {
 namespace {
 
 constexpr double tallest = 150;         ///< m; the tallest trees have 116 m
+constexpr double thickest_trunk = 12;   ///< m; the thickest trees have 11 m
 constexpr double slenderness = 60;      ///< a plant's height over its diameter
 constexpr double thickest_twig = 0.02;  ///< m; of a plant that is measured twig by twig
 constexpr double tall = 8;              ///< m; of such a plant
@@ -24,6 +25,9 @@ constexpr double tall = 8;              ///< m; of such a plant
 // A plant is so many times larger than thick if its numbers are in one unit: less where they are small, as metres are,
 // or where the unit is known.
 constexpr double slender_enough = 25, slender_in_metres = 4, slender_if_known = 10;
+
+// Tenths of a millimetre are written less often than millimetres: of two pairs that fit alike, these count.
+constexpr double rare = 0.2;
 
 constexpr double ln10 = 2.302585092994046;
 
@@ -48,11 +52,16 @@ double distance_of(const Pair& pair, const PlantNumbers& numbers, bool is_known)
     if (!(numbers.thickest > 0)) return pair.length == pair.diameter ? 0 : 10;
     const double ratio = numbers.extent * pair.length / (numbers.thickest * pair.diameter);
     if (pair.length == pair.diameter) {
-        if (ratio >= (is_known ? slender_if_known : pair.length == 1 ? slender_in_metres : slender_enough)) return 0;
+        const bool is_too_thick = !is_known && numbers.thickest * pair.diameter > thickest_trunk;
+        if (!is_too_thick && ratio >= (is_known           ? slender_if_known
+                                       : pair.length == 1 ? slender_in_metres
+                                                          : slender_enough))
+            return 0;
         return 3 + std::abs(math::log(ratio / slenderness) / ln10);
     }
     const bool has_thick_twigs = numbers.extent * pair.length > tall && numbers.thin * pair.diameter > thickest_twig;
-    return std::abs(math::log(ratio / slenderness) / ln10) + (has_thick_twigs ? 1 : 0);
+    const double rarity = pair.diameter < 0.001 ? rare : 0;
+    return std::abs(math::log(ratio / slenderness) / ln10) + (has_thick_twigs ? 1 : 0) + rarity;
 }
 
 const Pair& likeliest(const PlantNumbers& numbers, std::optional<double> length) {

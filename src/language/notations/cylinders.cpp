@@ -4,6 +4,8 @@
 #include "language/cylinders/dialect.h"
 #include "language/cylinders/tree.h"
 
+#include <utility>
+
 namespace espalier::language {
 namespace {
 
@@ -25,8 +27,8 @@ Each cylinder without parent begins a plant of its own.
 P. Raumonen et al.: Fast automatic precision tree models from terrestrial laser scanner data. Remote Sensing 5, 2013.
 J. Hackenberg et al.: SimpleTree, an efficient open source tool to build tree models from TLS clouds. Forests 6, 2015.)",
      nullptr,
-     [](const std::string& text, const std::filesystem::path& path, const MeasuredOptions& options) {
-         return cylinders::read(text, path.string(), options);
+     [](std::string text, const std::filesystem::path& path, const MeasuredOptions& options) {
+         return cylinders::read(std::move(text), path.string(), options);
      },
      cylinders::is_cylinder_model}};
 

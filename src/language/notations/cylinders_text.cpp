@@ -4,6 +4,8 @@
 #include "language/cylinders/dialect.h"
 #include "language/cylinders/tree.h"
 
+#include <utility>
+
 namespace espalier::language {
 namespace {
 
@@ -13,8 +15,8 @@ const Registered<NotationType> entry{
 start_point and axis_direction are three columns each, and other tables with tabs, commas or semicolons.
 P. Raumonen et al.: Fast automatic precision tree models from terrestrial laser scanner data. Remote Sensing 5, 2013.)",
      nullptr,
-     [](const std::string& text, const std::filesystem::path& path, const MeasuredOptions& options) {
-         return cylinders::read(text, path.string(), options);
+     [](std::string text, const std::filesystem::path& path, const MeasuredOptions& options) {
+         return cylinders::read(std::move(text), path.string(), options);
      },
      cylinders::is_cylinder_model}};
 

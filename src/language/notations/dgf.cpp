@@ -3,6 +3,8 @@
 
 #include "language/dgf/plants.h"
 
+#include <utility>
+
 namespace espalier::language {
 namespace {
 
@@ -33,8 +35,8 @@ subtype, organ type. A row may have the child first, and children may stand befo
 `espalier import` with --unit and --up overrules that. --define DT=0.5 sets the days of a step.
 The format: A. Dedner et al., the DGF parser of Dune-Grid. Its use for roots: T. Koch et al.: DuMux 3. Computers & Mathematics with
 Applications 81, 2021.)",
-     nullptr, [](const std::string& text, const std::filesystem::path& path, const MeasuredOptions& options) {
-         return dgf::read(text, path.string(), options);
+     nullptr, [](std::string text, const std::filesystem::path& path, const MeasuredOptions& options) {
+         return dgf::read(std::move(text), path.string(), options);
      }}};
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include "language/mtg/axes.h"
 
+#include <utility>
+
 namespace espalier::language {
 namespace {
 
@@ -27,8 +29,9 @@ above 0 is a plant of its own.
 
 A row that begins with * is the entity above at a later date: its last measures count, and its first date.
 
-Where a file says no unit, its numbers decide, with a warning: metres if the plant then is at most 150 m large and at least four
-times as large as thick; else the pair of units of lengths and of diameters with which it is sixty times as large as thick, or near.
+Where a file says no unit, its numbers decide, with a warning: metres if the plant then is at most 150 m large, 12 m thick and at least
+four times as large as thick; else the pair of units of lengths and of diameters with which it is sixty times as large as thick, or near;
+of pairs that fit alike, millimetres before tenths of them.
 I1<<I9 and I1++I9 are nine entities with the same features, of which the last has the coordinates; I1<.I9 gives features to the last
 alone. ^ is the last entity of its column, or the last of the scale of what follows it. A class that CLASSES: does not list has the
 scale of what it follows, or the next finer one. A file without coordinates, which has only topology, is refused.
@@ -36,8 +39,8 @@ scale of what it follows, or the next finer one. A file without coordinates, whi
 --define DT=0.5 sets the days of a step. Each axis ends with a module Tip(order), where a model made by `espalier translate` can go on
 to grow.
 C. Godin, Y. Caraglio: A multiscale model of plant topological structures. Journal of Theoretical Biology 191, 1998.)",
-     nullptr, [](const std::string& text, const std::filesystem::path& path, const MeasuredOptions& options) {
-         return mtg::read_axes(text, path.string(), options);
+     nullptr, [](std::string text, const std::filesystem::path& path, const MeasuredOptions& options) {
+         return mtg::read_axes(std::move(text), path.string(), options);
      }}};
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include "language/opf/axes.h"
 
+#include <utility>
+
 namespace espalier::language {
 namespace {
 
@@ -13,12 +15,14 @@ its x axis, as those of internodes. A matrix, three rows of four numbers, puts t
 drawn, multiply it across where it has enableScale. <follow> goes on, <branch> is borne by what it stands in, and the parts of
 <decomp> stand on what their whole stands on. Each entity of the coarsest scale above 0 is a plant of its own.
 
-Lengths are cm, and z points upwards. Leaves and other organs are not drawn, and attributes are not used: a warning names each class
-and each attribute.
+Leaves and other organs, whose meshes are no such pieces, are drawn as polygons, a flat mesh as one; they stand on the piece that bears
+them. Materials are not used.
+
+Lengths are cm, and z points upwards. Attributes are not used: a warning names each.
 S. Griffon, F. de Coligny: AMAPstudio, an editing and simulation software suite for plants architecture modelling. Ecological
 Modelling 290, 2014.)",
-     nullptr, [](const std::string& text, const std::filesystem::path& path, const MeasuredOptions& options) {
-         return opf::read_plants(text, path.string(), options);
+     nullptr, [](std::string text, const std::filesystem::path& path, const MeasuredOptions& options) {
+         return opf::read_plants(std::move(text), path.string(), options);
      }}};
 
 }  // namespace

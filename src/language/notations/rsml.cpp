@@ -3,6 +3,8 @@
 
 #include "language/rsml/document.h"
 
+#include <utility>
+
 namespace espalier::language {
 namespace {
 
@@ -27,6 +29,7 @@ diameter         0.5 mm; function or property, or radius, rootDiameter. In the u
 node_creation_time  none; function or property, or creationTime, emergence_time, emergence, time: the day on which each node appears
 age              none; function or property, d: the same, counted back from the oldest; taken as the day if it grows towards the tips
 length           none; property, with which the lines are compared
+continues        none; property: the ID of a root that stands before this one, which is a further piece of it, behind a gap
 
 A function has a sample for each point (domain polyline), samples with positions along the root (length), or evenly spread ones
 (uniform, with origin and step). It may stand in <function>, <function1> or <functions name="...">. Names may be in small or capital
@@ -35,8 +38,8 @@ letters, with - or _ or without.
 --define DT=0.5 sets the days of a step. Each root ends with a module Tip(order), where a model made by `espalier translate` can go on
 to grow. `espalier import` says what was read, and --unit, --up and --pixel overrule the file.
 G. Lobet et al.: Root System Markup Language. Plant Physiology 167, 2015.)",
-     nullptr, [](const std::string& text, const std::filesystem::path& path, const MeasuredOptions& options) {
-         return rsml::read(text, path.string(), options);
+     nullptr, [](std::string text, const std::filesystem::path& path, const MeasuredOptions& options) {
+         return rsml::read(std::move(text), path.string(), options);
      }}};
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include "language/swc/points.h"
 
+#include <utility>
+
 namespace espalier::language {
 namespace {
 
@@ -17,8 +19,8 @@ const Registered<NotationType> entry{
 Each axis ends with a module Tip(order), where a model made by `espalier translate` can go on to grow.
 R. C. Cannon, D. A. Turner, G. K. Pyapali, H. V. Wheal: An on-line archive of reconstructed hippocampal neurons. Journal of
 Neuroscience Methods 84, 1998.)",
-     nullptr, [](const std::string& text, const std::filesystem::path& path, const MeasuredOptions& options) {
-         return swc::read(text, path.string(), options);
+     nullptr, [](std::string text, const std::filesystem::path& path, const MeasuredOptions& options) {
+         return swc::read(std::move(text), path.string(), options);
      }}};
 
 }  // namespace

@@ -16,10 +16,13 @@
 #include <glm/mat3x3.hpp>
 
 #include <cmath>
+#include <iterator>
 #include <map>
 
 namespace espalier::language::opf {
 namespace {
+
+constexpr std::size_t most_corners = 10'000'000;  ///< of all faces of organs
 
 /// Where a plant of a scene stands; lengths in metres, in the file's axes.
 struct Stand {
@@ -45,8 +48,10 @@ public:
 /// The pieces of a document as axes, behind those of others.
 class Pieces {
 public:
-    Pieces(const Document& document, const Axes& axes, const Stand& stand)
+    /// `first_mesh` is the number that the document's first mesh has among those of all.
+    Pieces(const Document& document, const Axes& axes, const Stand& stand, std::size_t first_mesh)
         : document_(document),
+          first_mesh_(first_mesh),
           axes_(axes),
           stand_(stand),
           last_inside_(document.entities.size(), none),
@@ -66,7 +71,12 @@ public:
             if (!document_.entities[v].mesh) continue;
             char relation = '/';
             const std::uint32_t bearer = bearer_of(v, relation);
-            remember(v);
+            if (bearer != none && !is_piece(v)) {
+                std::vector<MeasuredNode>& nodes = loose[axis_of[bearer]].nodes;
+                loose[axis_of[bearer]].organs.push_back(organ(v, nodes.size() - 1));
+                continue;
+            }
+            if (is_piece(v)) remember(v);
             if (bearer != none && relation == '<' && !is_continued[bearer]) {
                 is_continued[bearer] = true;
                 axis_of[v] = axis_of[bearer];
@@ -86,11 +96,36 @@ public:
                 if (is_new) plants.push_back({document_.entities[whole].label});
                 axis.plant = found->second;
             }
-            add_piece(v, axis.nodes);
+            if (is_piece(v)) {
+                add_piece(v, axis.nodes);
+            } else {
+                // Nothing bears it: it is an axis of one node.
+                axis.nodes.push_back({placed(document_.entities[v].place[3]), 0, 0, false});
+                axis.organs.push_back(organ(v, 0));
+            }
         }
     }
 
 private:
+    const Mesh& mesh_of(std::uint32_t v) const { return document_.meshes[*document_.entities[v].mesh]; }
+
+    bool is_piece(std::uint32_t v) const { return mesh_of(v).is_tube(); }
+
+    MeasuredOrgan organ(std::uint32_t v, std::size_t node) const {
+        const Entity& entity = document_.entities[v];
+        MeasuredOrgan organ;
+        organ.mesh = first_mesh_ + *entity.mesh;
+        organ.on_node = node;
+        const glm::dmat3 turn = stand_.scale * axes_.metres * (axes_.upright * stand_.turn);
+        for (int column = 0; column < 3; ++column) organ.place[column] = turn * entity.place[column];
+        organ.place[3] = placed(entity.place[3]);
+        if (mesh_of(v).is_scaled) {
+            organ.below = entity.lower;
+            organ.above = entity.upper;
+        }
+        return organ;
+    }
+
     /// The piece that an entity stands on, and how: what it is nested in, or the last piece of that.
     std::uint32_t bearer_of(std::uint32_t v, char& relation) const {
         relation = '/';
@@ -100,7 +135,7 @@ private:
             // A part stands on what its whole stands on, unless it follows another.
             if (entity.relation == '/' && last_inside_[v] == none) continue;
             if (relation == '/') relation = entity.relation == '/' ? '+' : entity.relation;
-            if (document_.entities[v].mesh) return v;
+            if (document_.entities[v].mesh && is_piece(v)) return v;
             if (last_inside_[v] != none) return last_inside_[v];
         }
         return none;
@@ -128,7 +163,7 @@ private:
 
     void add_piece(std::uint32_t v, std::vector<MeasuredNode>& nodes) const {
         const Entity& entity = document_.entities[v];
-        const MeshBox& mesh = *entity.mesh;
+        const Mesh& mesh = mesh_of(v);
         const auto at = [&](double x) { return placed(entity.place * glm::dvec4(x, 0, 0, 1)); };
         const double across = (mesh.upper.y - mesh.lower.y) * glm::length(entity.place[1]);
         const double factor = mesh.is_scaled ? 0.5 * (entity.upper + entity.lower) : 1;
@@ -142,26 +177,46 @@ private:
     }
 
     const Document& document_;
+    std::size_t first_mesh_;
     const Axes& axes_;
     const Stand& stand_;
     std::vector<std::uint32_t> last_inside_;  ///< the last piece that is a part of each
     std::vector<std::uint32_t> complex_of_;   ///< what each is a part of
 };
 
-MeasuredPlants finished(std::vector<measured::LooseAxis> loose, std::vector<MeasuredPlant> plants, const Axes& axes,
-                        const std::string& name, const measured::Notes& notes) {
-    if (loose.empty()) {
-        throw UserError(Place{name, 1, 1},
-                        "no entity of this file has a mesh that is a piece of an axis: as thick one "
-                        "way as the other, along its x axis");
+void require_fit(const std::vector<measured::LooseAxis>& loose, const std::vector<MeasuredMesh>& meshes,
+                 const std::string& name) {
+    std::size_t corners = 0;
+    for (const measured::LooseAxis& axis : loose) {
+        for (const MeasuredOrgan& organ : axis.organs) {
+            for (const std::vector<std::uint32_t>& face : meshes[organ.mesh].faces) corners += face.size();
+        }
     }
+    if (corners <= most_corners) return;
+    throw UserError(
+        Place{name, 1, 1},
+        fmt::format("the faces of all organs have {} corners together: {} are read at most", corners, most_corners));
+}
+
+MeasuredPlants finished(std::vector<measured::LooseAxis> loose, std::vector<MeasuredPlant> plants,
+                        std::vector<MeasuredMesh> meshes, const Axes& axes, const std::string& name,
+                        const measured::Notes& notes) {
+    if (loose.empty()) throw UserError(Place{name, 1, 1}, "no entity of this file has a mesh with points and faces");
+    require_fit(loose, meshes, name);
     MeasuredPlants read;
+    read.meshes = std::move(meshes);
     read.axes = measured::joined(std::move(loose));
     read.plants = std::move(plants);
     read.unit = axes.unit;
     read.up = axes.up;
     read.warnings = notes.warnings();
     return read;
+}
+
+std::vector<MeasuredMesh> shapes_of(const Document& document) {
+    std::vector<MeasuredMesh> shapes;
+    for (const Mesh& mesh : document.meshes) shapes.push_back(mesh.shape);
+    return shapes;
 }
 
 /// Rows of an .ops file: scene, plant, file, x, y, z (m), scale, azimuth and angle of inclination, twist (radians).
@@ -202,21 +257,22 @@ private:
 
 }  // namespace
 
-MeasuredPlants read_plants(const std::string& text, const std::string& name, const MeasuredOptions& options) {
+MeasuredPlants read_plants(std::string text, const std::string& name, const MeasuredOptions& options) {
     measured::Notes notes(name);
     const Axes axes(options);
-    const Document document = read(text, name, notes);
+    const Document document = read(std::move(text), name, notes);
     std::vector<measured::LooseAxis> loose;
     std::vector<MeasuredPlant> plants;
-    Pieces(document, axes, Stand()).add_to(loose, plants);
-    return finished(std::move(loose), std::move(plants), axes, name, notes);
+    Pieces(document, axes, Stand(), 0).add_to(loose, plants);
+    return finished(std::move(loose), std::move(plants), shapes_of(document), axes, name, notes);
 }
 
 MeasuredPlants read_scene(const std::string& text, const std::filesystem::path& path, const MeasuredOptions& options) {
     const std::string name = path.string();
     measured::Notes notes(name);
     const Axes axes(options);
-    std::map<std::string, Document> documents;
+    std::map<std::string, std::pair<Document, std::size_t>> documents;  ///< and where its meshes begin
+    std::vector<MeasuredMesh> meshes;
     std::vector<measured::LooseAxis> loose;
     std::vector<MeasuredPlant> plants;
     std::vector<std::string_view> cells;
@@ -237,11 +293,16 @@ MeasuredPlants read_scene(const std::string& text, const std::filesystem::path& 
             if (!is_readable(file)) {
                 throw UserError(place, fmt::format("there is no file {}, which this plant is in", file.string()));
             }
-            found = documents.emplace(row.file(), read(read_text(file), file.string(), notes)).first;
+            Document document = read(read_text(file), file.string(), notes);
+            std::vector<MeasuredMesh> further = shapes_of(document);
+            found = documents.emplace(row.file(), std::pair(std::move(document), meshes.size())).first;
+            meshes.insert(meshes.end(), std::make_move_iterator(further.begin()),
+                          std::make_move_iterator(further.end()));
         }
-        Pieces(found->second, axes, stand).add_to(loose, plants);
+        const auto& [document, first_mesh] = found->second;
+        Pieces(document, axes, stand, first_mesh).add_to(loose, plants);
     }
-    return finished(std::move(loose), std::move(plants), axes, name, notes);
+    return finished(std::move(loose), std::move(plants), std::move(meshes), axes, name, notes);
 }
 
 }  // namespace espalier::language::opf

@@ -5,6 +5,7 @@
 #include "base/xml_reader.h"
 #include "language/measured/cells.h"
 #include "language/measured/notes.h"
+#include "language/opf/outline.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -18,17 +19,18 @@ namespace {
 
 constexpr int most_depth = 100'000;  ///< each internode stands inside the one before
 constexpr double largest = 1e12;
+constexpr double largest_index = 1e9;
 
 class Reader final : public XmlReader {
 public:
     Reader(const std::string& name, measured::Notes& notes) : XmlReader(name, most_depth), notes_(notes) {}
 
-    Document read(const std::string& text) {
-        parse(text);
+    Document read(std::string text) {
+        parse(std::move(text));
         if (!is_opf_) fail("this is no OPF file: its outermost element is not <opf>");
         for (const auto& [element, place] : not_drawn_) {
-            notes_.warn(fmt::format("'{}' has meshes that are no pieces of axes, and is not drawn", escaped(element)),
-                        place.first, place.second);
+            notes_.warn(fmt::format("'{}' has meshes without faces, and is not drawn", escaped(element)), place.first,
+                        place.second);
         }
         return std::move(document_);
     }
@@ -59,8 +61,8 @@ private:
     void begin(const std::string& element, const XmlAttributes& attributes) override {
         if (element == "opf") is_opf_ = true;
         if (element == "mesh") {
-            mesh_ = attributes.value("Id");
-            meshes_[mesh_].is_scaled = attributes.value("enableScale") == "true";
+            number_of_mesh_.try_emplace(attributes.value("Id"), document_.meshes.size());
+            document_.meshes.emplace_back().is_scaled = attributes.value("enableScale") == "true";
         }
         if (element == "shape") shape_ = attributes.value("Id");
         if (element == "geometry") is_in_geometry_ = true;
@@ -86,6 +88,11 @@ private:
     void end(const std::string& element) override {
         if (is_in_geometry_) return end_in_geometry(element);
         if (element == "points") return end_points();
+        if (element == "face") return end_face();
+        if (element == "normals" || element == "textureCoords" || element == "material") {
+            return notes_.unused("element <" + element + ">", here());
+        }
+        if (element == "mesh") return end_mesh();
         if (element == "meshIndex") shapes_[shape_].mesh = word();
         if (open_.empty()) return;
         if (element == "topology" || element == "decomp" || element == "follow" || element == "branch") {
@@ -98,14 +105,47 @@ private:
     void end_points() {
         const std::vector<double> all = numbers(0);
         if (all.size() % 3 != 0) fail("points have three coordinates each");
-        MeshBox& box = meshes_[mesh_];
-        box.lower = glm::dvec3(INFINITY);
-        box.upper = glm::dvec3(-INFINITY);
+        Mesh& mesh = open_mesh();
+        mesh.shape.points.clear();
+        mesh.lower = glm::dvec3(INFINITY);
+        mesh.upper = glm::dvec3(-INFINITY);
         for (std::size_t i = 0; i < all.size(); i += 3) {
             const glm::dvec3 at(all[i], all[i + 1], all[i + 2]);
-            box.lower = glm::min(box.lower, at);
-            box.upper = glm::max(box.upper, at);
+            mesh.shape.points.push_back(at);
+            mesh.lower = glm::min(mesh.lower, at);
+            mesh.upper = glm::max(mesh.upper, at);
         }
+        mesh.shape.lowest = mesh.lower.x;
+        mesh.shape.highest = mesh.upper.x;
+    }
+
+    Mesh& open_mesh() {
+        if (document_.meshes.empty()) fail("this stands in no <mesh>");
+        return document_.meshes.back();
+    }
+
+    void end_face() {
+        std::vector<std::uint32_t> face;
+        for (const double number : numbers(0)) {
+            if (number < 0 || number > largest_index || number != std::floor(number)) {
+                fail(fmt::format("'{}' is no number of a point", number));
+            }
+            face.push_back(static_cast<std::uint32_t>(number));
+        }
+        if (face.size() < 3) fail("a face has three points or more");
+        open_mesh().shape.faces.push_back(std::move(face));
+    }
+
+    /// Faces may stand before points.
+    void end_mesh() {
+        MeasuredMesh& shape = open_mesh().shape;
+        for (const std::vector<std::uint32_t>& face : shape.faces) {
+            const std::uint32_t last = *std::max_element(face.begin(), face.end());
+            if (last >= shape.points.size()) {
+                fail(fmt::format("a face names point {} of {}; they count from 0", last, shape.points.size()));
+            }
+        }
+        if (std::optional<std::vector<std::uint32_t>> outline = outline_of(shape)) shape.faces = {*std::move(outline)};
     }
 
     void end_in_geometry(const std::string& element) {
@@ -131,10 +171,11 @@ private:
     void give_mesh(Entity& entity) {
         const auto shape = shapes_.find(word());
         if (shape == shapes_.end()) fail(fmt::format("there is no shape '{}'", escaped(word())));
-        const auto mesh = meshes_.find(shape->second.mesh);
-        if (mesh == meshes_.end()) fail(fmt::format("there is no mesh '{}'", escaped(shape->second.mesh)));
-        if (mesh->second.is_tube()) {
-            entity.mesh = mesh->second;
+        const auto number = number_of_mesh_.find(shape->second.mesh);
+        if (number == number_of_mesh_.end()) fail(fmt::format("there is no mesh '{}'", escaped(shape->second.mesh)));
+        const Mesh& mesh = document_.meshes[number->second];
+        if (mesh.is_tube() || !mesh.shape.faces.empty()) {
+            entity.mesh = static_cast<std::uint32_t>(number->second);
             return;
         }
         auto& [place, count] = not_drawn_[entity.label];
@@ -143,8 +184,8 @@ private:
 
     measured::Notes& notes_;
     bool is_opf_ = false, is_in_geometry_ = false;
-    std::string mesh_, shape_;  ///< that are open
-    std::map<std::string, MeshBox> meshes_;
+    std::string shape_;  ///< that is open
+    std::map<std::string, std::size_t> number_of_mesh_;
     std::map<std::string, Shape> shapes_;
     std::vector<std::uint32_t> open_;
     std::map<std::string, std::pair<Place, std::size_t>> not_drawn_;
@@ -153,15 +194,15 @@ private:
 
 }  // namespace
 
-bool MeshBox::is_tube() const {
+bool Mesh::is_tube() const {
     const glm::dvec3 size = upper - lower, middle = 0.5 * (upper + lower);
     const double across = std::max(size.y, size.z);
     return size.x > 0 && across > 0 && std::abs(size.y - size.z) < 0.2 * across &&
            std::max(std::abs(middle.y), std::abs(middle.z)) < 0.1 * across;
 }
 
-Document read(const std::string& text, const std::string& name, measured::Notes& notes) {
-    return Reader(name, notes).read(text);
+Document read(std::string text, const std::string& name, measured::Notes& notes) {
+    return Reader(name, notes).read(std::move(text));
 }
 
 }  // namespace espalier::language::opf

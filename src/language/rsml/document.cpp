@@ -236,6 +236,7 @@ private:
 
     void set_nodes() {
         for (RawRoot& root : file_.roots) {
+            root.axis.nodes.reserve(root.points.size());
             for (const glm::dvec3& point : root.points) {
                 root.axis.nodes.push_back({axes_ * point, diameter_if_unknown, 0, false});
             }
@@ -406,7 +407,12 @@ private:
     void set_bearing_nodes() {
         for (RawRoot& root : file_.roots) {
             for (const RawProperty& property : root.properties) {
-                if (property.term.quantity != Quantity::parent_node || !root.axis.bearer) continue;
+                if (property.term.quantity != Quantity::parent_node) continue;
+                if (!root.axis.bearer) {
+                    if (property.value >= 0)
+                        notes_.unused("the parent-node of a root that nothing bears", root.axis.place);
+                    continue;
+                }
                 const RawRoot& bearer = file_.roots[*root.axis.bearer];
                 if (property.value < 0 || bearer.points.empty()) continue;
                 if (property.value >= static_cast<double>(bearer.points.size())) {
@@ -479,9 +485,9 @@ private:
 
 }  // namespace
 
-MeasuredPlants read(const std::string& text, const std::string& name, const MeasuredOptions& options) {
+MeasuredPlants read(std::string text, const std::string& name, const MeasuredOptions& options) {
     measured::Notes notes(name);
-    RawFile raw = read_raw(text, name, notes);
+    RawFile raw = read_raw(std::move(text), name, notes);
     MeasuredPlants plants = Measuring(std::move(raw), name, options, notes).plants();
     plants.warnings = notes.warnings();
     return plants;

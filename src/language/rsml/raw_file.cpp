@@ -3,6 +3,7 @@
 #include "base/number.h"
 #include "base/text.h"
 #include "base/xml_reader.h"
+#include "language/rsml/continued.h"
 
 #include <fmt/format.h>
 
@@ -21,10 +22,11 @@ class RawReader final : public XmlReader {
 public:
     RawReader(const std::string& name, measured::Notes& notes) : XmlReader(name), notes_(notes) {}
 
-    RawFile read(const std::string& text) {
-        parse(text);
+    RawFile read(std::string text) {
+        parse(std::move(text));
         if (!is_rsml_) fail("this is no RSML file: its outermost element is not <rsml>");
         if (!bookkeeping_.empty()) notes_.unused("metadata " + bookkeeping_, bookkeeping_place_);
+        if (has_continued_) join_continued(file_, root_of_id_, notes_);
         return std::move(file_);
     }
 
@@ -183,12 +185,17 @@ private:
             if (plain == "label")
                 root.axis.label = value;
             else if (plain == "id")
-                return;
+                note_id(value);
             else if (term_of(plain))
                 add_property(std::string(name), value);
             else
                 unused(fmt::format("attribute '{}' of <root>", name));
         });
+    }
+
+    void note_id(std::string_view id) {
+        const std::optional<double> number = finite_number(id);
+        if (number) root_of_id_.emplace(*number, open_roots_.back());
     }
 
     void begin_polyline() {
@@ -221,6 +228,7 @@ private:
         const double value = measured_number(text, name);
         if (std::isnan(value)) return;
         root().properties.push_back({plain_name(name), term, value});
+        if (term.quantity == Quantity::continues) has_continued_ = true;
     }
 
     void begin_property(const std::string& element, const XmlAttributes& attributes) {
@@ -317,13 +325,14 @@ private:
     std::string property_, defined_name_, bookkeeping_;
     std::optional<std::string> property_value_, sample_;
     Place bookkeeping_place_;
-    bool is_rsml_ = false;
+    std::map<double, std::size_t> root_of_id_;  ///< of IDs that are numbers
+    bool is_rsml_ = false, has_continued_ = false;
 };
 
 }  // namespace
 
-RawFile read_raw(const std::string& text, const std::string& name, measured::Notes& notes) {
-    return RawReader(name, notes).read(text);
+RawFile read_raw(std::string text, const std::string& name, measured::Notes& notes) {
+    return RawReader(name, notes).read(std::move(text));
 }
 
 }  // namespace espalier::language::rsml

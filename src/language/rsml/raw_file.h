@@ -53,6 +53,6 @@ struct RawFile {
 };
 
 /// Notes what is not used. Throws UserError with the place of a mistake.
-RawFile read_raw(const std::string& text, const std::string& name, measured::Notes& notes);
+RawFile read_raw(std::string text, const std::string& name, measured::Notes& notes);
 
 }  // namespace espalier::language::rsml

@@ -69,6 +69,7 @@ constexpr std::array term_rows{
     TermRow{"age", {Quantity::age, 1}},
     TermRow{"parentnode", {Quantity::parent_node, 1}},
     TermRow{"length", {Quantity::length, 1}},
+    TermRow{"continues", {Quantity::continues, 1}},
 };
 
 struct UpwardsRow {

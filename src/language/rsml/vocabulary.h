@@ -36,7 +36,7 @@ enum class Scope {
 };
 
 /// What a function or a property tells of a root.
-enum class Quantity { diameter, birth, age, parent_node, length };
+enum class Quantity { diameter, birth, age, parent_node, length, continues };
 
 struct Term {
     Quantity quantity;

@@ -29,7 +29,7 @@ class Reader {
 public:
     Reader(const std::string& name, const MeasuredOptions& options) : name_(name), options_(options), notes_(name) {}
 
-    MeasuredPlants read(std::string_view text) {
+    void read(std::string_view text) {
         for (std::size_t begin = 0; begin < text.size();) {
             const std::string_view line = measured::next_line(text, begin);
             ++line_;
@@ -39,7 +39,48 @@ public:
         }
         if (points_.empty()) fail(1, "this file has no points");
         set_units();
-        return finished();
+    }
+
+    MeasuredPlants plants() {
+        const std::vector<double> reach = reaches();
+        // The path to the farthest tip goes on.
+        const auto next = [&](std::uint32_t point, const std::vector<std::uint32_t>& borne) {
+            const auto length = [&](std::uint32_t each) {
+                return reach[each] + glm::distance(points_[point].at, points_[each].at);
+            };
+            std::size_t best = 0;
+            for (std::size_t i = 1; i < borne.size(); ++i) {
+                if (length(borne[i]) > length(borne[best])) best = i;
+            }
+            return best;
+        };
+        const std::vector<measured::PartAxis> axes = measured::axes_of_parts(parts_, is_root, next, name_);
+        std::vector<std::size_t> place_of(points_.size());  // on its axis
+        std::vector<measured::LooseAxis> loose;
+        MeasuredPlants plants;
+        for (const measured::PartAxis& axis : axes) {
+            measured::LooseAxis& out = loose.emplace_back();
+            out.place = {name_, parts_[axis.parts[0]].line, 1};
+            if (axis.bearer == measured::PartAxis::none) {
+                out.plant = plants.plants.size();
+                plants.plants.push_back({});
+            } else {
+                out.bearer = axis.bearer;
+                out.plant = loose[axis.bearer].plant;
+                out.on_node = place_of[axis.on_part];
+                out.nodes.push_back(node(axis.on_part));
+            }
+            out.nodes.reserve(out.nodes.size() + axis.parts.size());
+            for (const std::uint32_t point : axis.parts) {
+                place_of[point] = out.nodes.size();
+                out.nodes.push_back(node(point));
+            }
+        }
+        plants.axes = measured::joined(std::move(loose));
+        plants.unit = options_.pixel ? fmt::format("pixels of {} mm", format_general(1000 * metres_)) : unit_;
+        plants.up = up_;
+        plants.warnings = notes_.warnings();
+        return plants;
     }
 
 private:
@@ -64,10 +105,17 @@ private:
                  column < cells_.size() ? fmt::format("'{}'", escaped(cells_[column].substr(0, 40))) : "missing"));
     }
 
+    std::int32_t whole(std::size_t column) const {
+        const double value = number(column);
+        if (std::abs(value) <= measured::NamedPart::largest) return static_cast<std::int32_t>(std::lround(value));
+        fail(static_cast<int>(column) + 1,
+             fmt::format("{} is a number up to {}", columns[column], measured::NamedPart::largest));
+    }
+
     void read_point() {
         measured::NamedPart part;
-        part.id = static_cast<std::int64_t>(std::llround(number(0)));
-        part.parent = static_cast<std::int64_t>(std::llround(number(6)));
+        part.id = whole(0);
+        part.parent = whole(6);
         part.line = line_;
         points_.push_back({{number(2), number(3), number(4)}, number(5)});
         parts_.push_back(part);
@@ -116,48 +164,7 @@ private:
         return reach;
     }
 
-    static bool is_root(std::int64_t parent) { return parent < 0; }
-
-    MeasuredPlants finished() {
-        const std::vector<double> reach = reaches();
-        // The path to the farthest tip goes on.
-        const auto next = [&](std::uint32_t point, const std::vector<std::uint32_t>& borne) {
-            const auto length = [&](std::uint32_t each) {
-                return reach[each] + glm::distance(points_[point].at, points_[each].at);
-            };
-            std::size_t best = 0;
-            for (std::size_t i = 1; i < borne.size(); ++i) {
-                if (length(borne[i]) > length(borne[best])) best = i;
-            }
-            return best;
-        };
-        const std::vector<measured::PartAxis> axes = measured::axes_of_parts(parts_, is_root, next, name_);
-        std::vector<std::size_t> place_of(points_.size());  // on its axis
-        std::vector<measured::LooseAxis> loose;
-        MeasuredPlants plants;
-        for (const measured::PartAxis& axis : axes) {
-            measured::LooseAxis& out = loose.emplace_back();
-            out.place = {name_, parts_[axis.parts[0]].line, 1};
-            if (axis.bearer == measured::PartAxis::none) {
-                out.plant = plants.plants.size();
-                plants.plants.push_back({});
-            } else {
-                out.bearer = axis.bearer;
-                out.plant = loose[axis.bearer].plant;
-                out.on_node = place_of[axis.on_part];
-                out.nodes.push_back(node(axis.on_part));
-            }
-            for (const std::uint32_t point : axis.parts) {
-                place_of[point] = out.nodes.size();
-                out.nodes.push_back(node(point));
-            }
-        }
-        plants.axes = measured::joined(std::move(loose));
-        plants.unit = options_.pixel ? fmt::format("pixels of {} mm", format_general(1000 * metres_)) : unit_;
-        plants.up = up_;
-        plants.warnings = notes_.warnings();
-        return plants;
-    }
+    static bool is_root(std::int32_t parent) { return parent < 0; }
 
     std::string name_;
     MeasuredOptions options_;
@@ -173,9 +180,12 @@ private:
 
 }  // namespace
 
-MeasuredPlants read(const std::string& text, const std::string& name, const MeasuredOptions& options) {
+MeasuredPlants read(std::string text, const std::string& name, const MeasuredOptions& options) {
     try {
-        return Reader(name, options).read(text);
+        Reader reader(name, options);
+        reader.read(text);
+        std::string().swap(text);
+        return reader.plants();
     } catch (const UserError& error) {
         if (error.diagnostics().front().place.known()) throw;
         throw UserError(Place{name, 1, 1}, error.diagnostics().front().message);

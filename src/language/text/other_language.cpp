@@ -77,6 +77,21 @@ struct Notation {
 
 // The more particular stand before the more general.
 constexpr std::array notations{
+    Notation{[](std::string_view text, const std::filesystem::path&) { return text.starts_with("MATLAB"); },
+             "this is a MATLAB file, as TreeQSM writes: write its cylinders as a table there, with "
+             "writetable(struct2table(QSM.cylinder), 'tree.csv')"},
+    Notation{[](std::string_view text, const std::filesystem::path& path) {
+                 return has_extension(path, {".las", ".laz"}) || text.starts_with("LASF");
+             },
+             "this is LAS, which is not read: write it as .xyz or .ply, as CloudCompare and PDAL do; these are targets "
+             "of `espalier fit` and points of the process `markers`"},
+    Notation{
+        [](std::string_view text, const std::filesystem::path& path) {
+            return has_extension(path, {".ply", ".obj", ".stl", ".xyz", ".pts", ".asc"}) || text.starts_with("ply\n") ||
+                   text.starts_with("ply\r");
+        },
+        "these are points or a mesh, not a plant: a target of `espalier fit`, points of the process `markers`, or a "
+        "shape"},
     Notation{[](std::string_view text, const std::filesystem::path&) {
                  return has(text, "lpfgall.h") || begin_lines(text, {"produce ", "module "});
              },

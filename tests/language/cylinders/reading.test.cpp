@@ -126,8 +126,32 @@ TEST_CASE("cylinders: malformed tables end in one line", "[cylinders]") {
                Catch::Contains("no header of a cylinder model"));
 }
 
+TEST_CASE("cylinders: between semicolons a comma may stand for the point", "[cylinders]") {
+    std::string text = archi;
+    for (std::size_t at = text.find('\n'); (at = text.find('.', at)) != std::string::npos;) text[at] = ',';
+    CHECK(cylinder_table.summary(text).volume == Approx(cylinder_table.summary(archi).volume));
+    CHECK(cylinder_table.summary(text).link_length == Approx(0.1));
+}
+
+TEST_CASE("points and files of other programs are told for what they are where plants are read", "[cylinders]") {
+    const TemporaryFolder folder;
+    const auto mistake = [&](const std::string& name, const std::string& text) {
+        try {
+            read_measured_plants(folder.write(name, text));
+        } catch (const UserError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    CHECK_THAT(mistake("a.las", "LASF"), Catch::Contains("this is LAS, which is not read: write it as .xyz or .ply"));
+    CHECK_THAT(mistake("a.ply", "ply\nformat ascii 1.0\n"), Catch::Contains("these are points or a mesh, not a plant"));
+    CHECK_THAT(mistake("a.geom", "#PlantGL"), Catch::Contains("this is a scene of PlantGL"));
+    CHECK_THAT(mistake("a.odt", "PK"), Catch::Contains("is no file of measured plants: their extensions are .csv"));
+}
+
 TEST_CASE("a MATLAB file is told how its cylinders become a table", "[cylinders]") {
     const TemporaryFolder folder;
-    CHECK_THROWS_WITH(read_measured_plants(folder.write("tree.mat", "MATLAB 5.0 MAT-file, Platform: GLNXA64")),
-                      Catch::Contains("tree.mat is a MATLAB file, as TreeQSM writes: write its cylinders as a table"));
+    CHECK_THROWS_WITH(
+        read_measured_plants(folder.write("tree.mat", "MATLAB 5.0 MAT-file, Platform: GLNXA64")),
+        Catch::Contains("tree.mat: this is a MATLAB file, as TreeQSM writes: write its cylinders as a table"));
 }

@@ -145,6 +145,18 @@ TEST_CASE("MTG: coordinates in cm beside diameters in mm are told by their numbe
     CHECK(mtg_file.read(text, options).axes[0].nodes[2].at.y == Approx(4.2));
 }
 
+TEST_CASE("MTG: of units that fit alike the usual ones count, and no trunk is thicker than trees are", "[mtg]") {
+    const auto unit_of = [](const std::string& rows) {
+        return mtg_file.read(mtg_tree(rows, "XX\tYY\tZZ\tTopDia", "")).unit;
+    };
+    // 1 m high and 55 mm thick, or 5.5 mm: eighteen or 182 times as large as thick.
+    CHECK(unit_of("/P1/B1/S1\t\t0\t0\t0\t55\n^<S2\t\t0\t0\t100\t45\n") == "cm, diameters mm");
+    // Tenths of a millimetre still are what fits best.
+    CHECK(unit_of("/P1/B1/S1\t\t0\t0\t0\t300\n^<S2\t\t0\t0\t2000\t100\n") == "mm, diameters 0.1 mm");
+    CHECK(unit_of("/P1/B1/S1\t\t0\t0\t0\t20\n^<S2\t\t0\t0\t120\t10\n") == "cm, diameters mm");
+    CHECK(unit_of("/P1/B1/S1\t\t0\t0\t0\t3\n^<S2\t\t0\t0\t30\t1\n") == "m");
+}
+
 TEST_CASE("MTG: a plant of more than 150 m is told", "[mtg]") {
     const std::string rows = "/P1/B1/S1\t\t0\t0\t0\t1\n^<S2\t\t0\t0\t650\t1\n";
     CHECK_THAT(mtg_file.warnings(mtg_tree(rows, "XX\tYY\tZZ\tdiameter", "m")), Catch::Contains("is 650 m large"));

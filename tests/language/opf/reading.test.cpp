@@ -16,8 +16,10 @@ const MeasuredText opf_file{"opf", "plant.opf"};
 /// A tube of length 1 and diameter 1 along x, and a flat leaf.
 const std::string meshes =
     "<opf version=\"2.0\"><meshBDD><mesh Id=\"0\" enableScale=\"true\"><points>0 -0.5 0 0 0.5 0 0 0 -0.5 0 0 0.5\n"
-    "1 -0.5 0 1 0.5 0 1 0 -0.5 1 0 0.5</points></mesh><mesh Id=\"1\" enableScale=\"true\"><points>0 -0.5 0 1 0.5 0"
-    "</points></mesh></meshBDD><shapeBDD><shape Id=\"0\"><meshIndex>0</meshIndex></shape><shape Id=\"7\"><meshIndex>1"
+    "1 -0.5 0 1 0.5 0 1 0 -0.5 1 0 0.5</points></mesh><mesh Id=\"1\" enableScale=\"true\"><points>0 -0.5 0 1 -0.5 0 1 "
+    "0.5 0 0 0.5 0</points><faces><face Id=\"0\">0 1 2</face><face Id=\"1\">0 2 "
+    "3</face></faces></mesh></meshBDD><shapeBDD><shape Id=\"0\"><meshIndex>0</meshIndex></shape><shape "
+    "Id=\"7\"><meshIndex>1"
     "</meshIndex></shape></shapeBDD>";
 
 /// Upright from a height, 10 cm long and 2 cm thick.
@@ -38,7 +40,7 @@ std::string level_piece(double x, double height) {
 
 const std::string leaf =
     "<branch class=\"Leaf\" scale=\"3\" id=\"9\"><Length>0.2</Length><geometry><shapeIndex>7"
-    "</shapeIndex><mat>1 0 0 0 0 1 0 0 0 0 1 0</mat></geometry></branch>";
+    "</shapeIndex><mat>4 0 0 1 0 2 0 0 0 0 1 5</mat><dUp>0.5</dUp><dDwn>1.5</dDwn></geometry></branch>";
 
 /// A stem of three internodes, of which the first bears a branch on its surface, and a leaf.
 std::string plant_of(const std::string& begin, const std::string& end) {
@@ -57,14 +59,45 @@ const std::string one_plant =
 
 TEST_CASE("OPF: matrices put pieces to their places, by which axes follow and are borne", "[opf]") {
     const language::MeasuredPlants plants = opf_file.read(one_plant);
-    check_measures(plants, {1, 2, 0.5, {0.21, 0.3, 0}, 0.01});
+    check_measures(plants, {1, 2, 0.5, {0.21, 0.3, 0.03}, 0.01});
     CHECK(plants.plants[0].label == "Individual");
     CHECK(plants.axes[0].nodes.size() == 4);
     CHECK(plants.axes[0].nodes[1].diameter == Approx(0.02));
     CHECK(plants.axes[1].order == 1);
-    CHECK_THAT(warnings_of(plants), Catch::Contains("'Leaf' has meshes that are no pieces of axes") &&
-                                        Catch::Contains("attribute 'Width' is not used\n") &&
-                                        Catch::Contains("attribute 'Length' is not used\n"));
+    CHECK(warnings_of(plants) == "attribute 'Width' is not used\nattribute 'Length' is not used\n");
+}
+
+TEST_CASE("OPF: a flat leaf is one polygon at its place, as wide as its factors say", "[opf]") {
+    const language::MeasuredPlants plants = opf_file.read(one_plant);
+    const language::MeasuredSummary summary = language::summary_of(plants);
+    CHECK(summary.organs == 1);
+    // 4 cm long, and 2 cm wide times 1.5 at its base and 0.5 at its tip.
+    CHECK(summary.organ_area == Approx(0.04 * 0.02));
+    REQUIRE(plants.axes[0].organs.size() == 1);
+    const language::MeasuredOrgan& leaf_of_stem = plants.axes[0].organs[0];
+    CHECK(plants.axes[0].nodes[leaf_of_stem.on_node].at.y == Approx(0.1));  // the end of what bears it
+    CHECK(plants.meshes[leaf_of_stem.mesh].faces.size() == 1);
+    const std::vector<glm::dvec3> points = language::points_of(plants.meshes[leaf_of_stem.mesh], leaf_of_stem);
+    REQUIRE(points.size() == 4);
+    CHECK(glm::distance(points[0], glm::dvec3(0.01, 0.05, 0.015)) == Approx(0).margin(1e-12));
+    CHECK(glm::distance(points[2], glm::dvec3(0.05, 0.05, -0.005)) == Approx(0).margin(1e-12));
+    CHECK_THAT(language::measured_model_text(plants), Catch::Contains("{.") && Catch::Contains("}"));
+}
+
+TEST_CASE("OPF: a mesh that is not flat has a polygon for each face, and a plant may be one organ", "[opf]") {
+    const auto quad = [](const std::string& height) {
+        return "<opf><meshBDD><mesh Id=\"0\"><points>0 0 0 100 0 0 100 100 " + height +
+               " 0 100 0</points><faces><face>0 1 2</face><face>0 2 3</face></faces></mesh></meshBDD><shapeBDD><shape "
+               "Id=\"0\"><meshIndex>0</meshIndex></shape></shapeBDD><topology class=\"Plant\" scale=\"1\"><geometry>"
+               "<shapeIndex>0</shapeIndex><mat>1 0 0 0 0 1 0 0 0 0 1 0</mat></geometry></topology></opf>";
+    };
+    CHECK(opf_file.read(quad("0")).meshes.at(0).faces.size() == 1);
+    CHECK(opf_file.read(quad("50")).meshes.at(0).faces.size() == 2);
+    CHECK(opf_file.summary(quad("0")).organ_area == Approx(1));
+    CHECK(opf_file.summary(quad("0")).length == 0);
+    std::string text = quad("0");
+    text.replace(text.find("0 2 3"), 5, "0 2 4");
+    CHECK_THAT(opf_file.mistake(text), Catch::Contains("a face names point 4 of 4; they count from 0"));
 }
 
 TEST_CASE("OPF: hundreds of internodes stand inside each other", "[opf]") {
