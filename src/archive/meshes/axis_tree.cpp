@@ -142,7 +142,8 @@ AxisTree axis_tree(const FrameGeometry& geometry, const MeshOptions& options) {
         const bool begins = tree.axes.empty() || tree.internodes.back().axis != internode.axis;
         if (begins) {
             if (!internode.bearer.is_none()) tree.axes_borne[internode.bearer].push_back(tree.axes.next());
-            const bool is_unmarked = geometry.symbol_names[internode.symbol] == "G";
+            const std::vector<std::string>& symbols = geometry.symbol_names;  // the studio's pictures have none
+            const bool is_unmarked = internode.symbol < symbols.size() && symbols[internode.symbol] == "G";
             tree.axes.push_back({internode.plant, here, here, internode.bearer, is_unmarked});
         }
         tree.axes.back().end = here.next();
