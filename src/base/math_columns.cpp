@@ -8,14 +8,8 @@ namespace espalier::math {
 namespace {
 
 const ColumnFunctions& functions() {
-    static const ColumnFunctions best = [] {
-#ifdef ESPALIER_WIDE_MATH
-        if (__builtin_cpu_supports("avx512f")) return functions_of_512_bits;
-        if (__builtin_cpu_supports("avx2")) return functions_of_256_bits;
-#endif
-        return column_functions<double>();
-    }();
-    return best;
+    static const ColumnFunctions widest = functions_here().back();
+    return widest;
 }
 
 /// pow() has no need of logarithms for some exponents.
@@ -24,6 +18,15 @@ bool may_be_easy(double exponent) {
 }
 
 }  // namespace
+
+std::vector<ColumnFunctions> functions_here() {
+    std::vector<ColumnFunctions> here{column_functions<double>()};
+#ifdef ESPALIER_WIDE_MATH
+    if (__builtin_cpu_supports("avx2")) here.push_back(functions_of_256_bits);
+    if (__builtin_cpu_supports("avx512f")) here.push_back(functions_of_512_bits);
+#endif
+    return here;
+}
 
 void sin(std::span<const double> angles, double* sines) {
     functions().sin(angles.size(), angles.data(), sines);

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <vector>
 
 namespace espalier::math {
 
@@ -23,6 +24,19 @@ struct ColumnFunctions {
 
 extern const ColumnFunctions functions_of_512_bits, functions_of_256_bits;
 
+/// All that this processor can run, the widest last.
+std::vector<ColumnFunctions> functions_here();
+
+/// Of one number, or lane by lane.
+template <class Mask>
+ESPALIER_INLINE Mask both(Mask a, Mask b) {
+    if constexpr (std::is_same_v<Mask, bool>) {
+        return a && b;
+    } else {
+        return a & b;
+    }
+}
+
 // Each function as its kernel, the test of arguments that the kernel takes, and the function of one number, which
 // takes all.
 
@@ -33,7 +47,7 @@ struct Sine {
     }
     template <class T>
     ESPALIER_INLINE static auto is_plain(T x) {
-        return (magnitude(x) >= small_angle) & (magnitude(x) < great_angle);
+        return both(magnitude(x) >= small_angle, magnitude(x) < great_angle);
     }
     ESPALIER_INLINE static double one(double x) { return math::sin(x); }
 };
@@ -78,7 +92,7 @@ struct Power {
     template <class T>
     ESPALIER_INLINE static auto is_plain(T x, T y) {
         const T exponent = exponent_of_power(logarithm<T>(bits_of(x)), y).high;
-        return is_normal_and_positive(x) & (magnitude(exponent) <= greatest_exponent);
+        return both(is_normal_and_positive(x), magnitude(exponent) <= greatest_exponent);
     }
     ESPALIER_INLINE static double one(double x, double y) { return any_power(x, y); }
 };
@@ -90,8 +104,8 @@ struct AngleOfLegs {
     }
     template <class T>
     ESPALIER_INLINE static auto is_plain(T y, T x) {
-        return (magnitude(x) >= least_leg) & (magnitude(x) <= greatest_leg) & (magnitude(y) >= least_leg) &
-               (magnitude(y) <= greatest_leg);
+        return both(both(magnitude(x) >= least_leg, magnitude(x) <= greatest_leg),
+                    both(magnitude(y) >= least_leg, magnitude(y) <= greatest_leg));
     }
     ESPALIER_INLINE static double one(double y, double x) { return math::atan2(y, x); }
 };
@@ -104,8 +118,8 @@ ESPALIER_INLINE Lanes lanes_of(const double* column) {
 
 template <class Mask>
 ESPALIER_INLINE bool is_each(Mask is) {
-    if constexpr (std::is_integral_v<Mask>) {
-        return is != 0;
+    if constexpr (std::is_same_v<Mask, bool>) {
+        return is;
     } else {
         std::int64_t each = -1;
         for (std::size_t lane = 0; lane < sizeof is / sizeof(double); ++lane) each &= is[lane];

@@ -3,6 +3,7 @@
 #include "espalier/base/random.h"
 
 #include "base/math_columns.h"
+#include "base/math_lanes.h"
 #include "catch.h"
 
 #include <algorithm>
@@ -162,6 +163,29 @@ TEST_CASE("functions of a column have the bits that they have of each number", "
             REQUIRE(are_same(powers[k], math::pow(some[k], exponents[k])));
         }
         REQUIRE(powers[count] == 0);
+    }
+}
+
+TEST_CASE("columns have the same bits with any width of vectors", "[base][math]") {
+    std::vector<double> x = arguments(-20, 20, 4001), y = arguments(-5, 5, 4001);
+    for (std::size_t k = 0; k < 500; ++k) x[8 * k] = std::abs(x[8 * k]);
+    std::vector<double> one(x.size()), wide(x.size());
+    for (const math::ColumnFunctions& functions : math::functions_here()) {
+        const auto compare = [&](math::OfColumn of_one, math::OfColumn of_lanes) {
+            of_one(x.size(), x.data(), one.data());
+            of_lanes(x.size(), x.data(), wide.data());
+            CHECK(std::equal(one.begin(), one.end(), wide.begin(), are_same));
+        };
+        const math::ColumnFunctions plain = math::functions_here().front();
+        compare(plain.sin, functions.sin);
+        compare(plain.cos, functions.cos);
+        compare(plain.exp, functions.exp);
+        compare(plain.log, functions.log);
+        for (const auto& [of_one, of_lanes] : {std::pair(plain.pow, functions.pow), {plain.atan2, functions.atan2}}) {
+            of_one(x.size(), x.data(), y.data(), one.data());
+            of_lanes(x.size(), x.data(), y.data(), wide.data());
+            CHECK(std::equal(one.begin(), one.end(), wide.begin(), are_same));
+        }
     }
 }
 
