@@ -41,17 +41,25 @@ struct FileOfWeather {
     }
 };
 
-/// Two days of an EPW whose hour h has h degrees and 10 h W m-2, 12 to 13 h of them with 100 more.
-std::string epw(const std::string& pressure = "100000") {
+/// The row of an EPW whose hour h has h degrees and 600 W m-2 from 12 to 13 h.
+std::string epw_row(const std::string& date, int hour, int minute, const std::string& pressure) {
+    const int light = hour == 13 ? 600 : 0;
+    return fmt::format(
+        "{},{},{},?9,{},5,50,{},0,0,0,{},0,{},0,0,0,0,180,4,0,0,10,77777,9,999999999,0,0,0,88,999,2,1\r\n", date, hour,
+        minute, hour, pressure, light, light / 2);
+}
+
+/// Days of an EPW, with so many records an hour.
+std::string epw(const std::string& pressure = "100000",
+                const std::vector<std::string>& dates = {"2023,2,28", "1999,3,1"}, int records = 1) {
     std::string text =
         "\xEF\xBB\xBFLOCATION,\"A, town\",X,Y,Z,1,0.0,0.0,0.0,50.0\r\nCOMMENTS 1,one, two, three\r\n"
-        "DATA PERIODS,1,1,Data,Sunday, 2/28, 3/1\r\n";
-    for (const auto* date : {"2023,2,28", "1999,3,1"}) {
+        "DATA PERIODS,1," +
+        std::to_string(records) + ",Data,Sunday, 2/28, 3/1\r\n";
+    for (const std::string& date : dates) {
         for (int hour = 1; hour <= 24; ++hour) {
-            const int light = hour == 13 ? 600 : 0;
-            text += std::string(date) + "," + std::to_string(hour) + ",0,?9," + std::to_string(hour) + ",5,50," +
-                    pressure + ",0,0,0," + std::to_string(light) + ",0," + std::to_string(light / 2) +
-                    ",0,0,0,0,180,4,0,0,10,77777,9,999999999,0,0,0,88,999,2,1\r\n";
+            for (int k = 1; k <= records; ++k)
+                text += epw_row(date, hour, records > 1 ? 60 / records * k : 0, pressure);
         }
     }
     return text;
@@ -72,6 +80,20 @@ TEST_CASE("hour 1 of an EPW ends at one o'clock, and its radiation and rain are 
     CHECK(weather.of_step(14, 14, 1).radiation == Approx(0).margin(1e-12));
     CHECK(weather.day() == 59);
     CHECK_THROWS_WITH(weather.of_step(60, 60, 1), Contains("repeat = true"));
+}
+
+TEST_CASE("an EPW may have a 29 February, and several records an hour", "[weather]") {
+    FileOfWeather leap("leap.epw", epw("100000", {"2024,2,28", "2024,2,29", "1999,3,1"}));
+    const Weather year = leap.weather("days = 0.0416666666666666667\n");
+    for (const double noon : {13.0, 37.0, 61.0}) CHECK(year.of_step(1, noon, 1).radiation == Approx(600 * 3600e-6));
+    CHECK_THROWS_WITH(year.of_step(74, 74, 1), Contains("repeat = true"));
+
+    FileOfWeather quarters("quarters.epw", epw("100000", {"2023,2,28", "1999,3,1"}, 4));
+    const Weather fine = quarters.weather("days = 0.0416666666666666667\n");
+    CHECK(fine.of_step(1, 12.75, 0.5).radiation == Approx(300 * 3600e-6));
+    CHECK(fine.of_step(1, 12, 0.5).radiation == Approx(0).margin(1e-12));
+    REQUIRE(quarters.warnings.size() == 1);
+    CHECK_THAT(quarters.warnings[0].message, Contains("4 records an hour"));
 }
 
 TEST_CASE("a column of codes is missing, and a fill needs its hours", "[weather]") {

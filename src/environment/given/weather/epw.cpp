@@ -45,6 +45,12 @@ WeatherTable read_epw(const std::filesystem::path& path, TextLines lines, const 
         if (cells[0] == "DATA PERIODS") {
             has_begun = true;
             records = cells.size() > 2 ? weather_number(cells[2]).value_or(1) : 1;
+            if (records > 1) {
+                rows.warn({path.string(), line.number, 3},
+                          fmt::format("this EPW has {:g} records an hour: their radiation is taken as the mean of the "
+                                      "record in W/m2; where it is the sum in Wh/m2, all light is {:g} times too weak",
+                                      records, records));
+            }
             continue;
         }
         if (!has_begun) continue;

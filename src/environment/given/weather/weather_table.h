@@ -119,6 +119,7 @@ public:
     WeatherTable table();
 
     [[noreturn]] void refuse(int line, int column, const std::string& message) const;
+    void warn(const Place& place, const std::string& message) const;
 
 private:
     struct Hole {
@@ -145,7 +146,6 @@ private:
                           AirQuantity quantity) const;
     [[noreturn]] void refuse_hole(std::size_t row, AirQuantity quantity, const std::string& hint) const;
     void warn_of_light(const WeatherTable& table) const;
-    void warn(const Place& place, const std::string& message) const;
 
     std::string path_;
     WeatherReading reading_;
