@@ -92,7 +92,8 @@ min, d) since the midnight at which its first day begins, or "date", as 2025-06-
 temperature (degC), dew point (degC), humidity (%), vapour pressure (kPa), wind (m/s), pressure (kPa), global (W m-2), diffuse,
 direct and par as canopy-light's series has them, rain (mm, until the next row, or mm/h), co2 (umol/mol). A file with highest
 (degC) and lowest (degC) has a row for each day, and global (MJ m-2 d-1) its radiation. EPW, TMY3, PVGIS (typical years as
-CSV) and NASA POWER (hours as CSV) are known by their first lines, and say place, date and units themselves.
+CSV), BSRN (a month of minutes) and NASA POWER (hours as CSV) are known by their first lines, and say place, date and units
+themselves.
 
 Cells that are empty, NA, 9999 and the like, or the codes of those forms, are missing values. Light from -20 to 0 W m-2 is 0.
 

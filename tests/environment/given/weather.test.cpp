@@ -201,6 +201,31 @@ TEST_CASE("NASA POWER: hours begin at their stamp, and radiation has the unit of
     }
 }
 
+TEST_CASE("BSRN: minutes in two lines, places that count from the pole, and codes of what was not measured",
+          "[weather]") {
+    std::string text =
+        "*C0001\n 77  2 2023  1\n 2 3 4\n*U0004\n -1 -1 -1\n 1 1\n Somewhere\n 1 2\n -1 somebody@example.org\n"
+        " 142.250 187.500 120 XXX -1\n*U0100\n";
+    for (int minute = 0; minute < 180; ++minute) {
+        const int light = minute < 60 ? 0 : 300;
+        text += fmt::format(" 28 {:4d}   {:4d} 0.5 {:4d} {:4d}   -999 -99.9 -999 -999\n", minute, light, light, light);
+        text += fmt::format("          {:4d} 0.1 {:4d} {:4d}   310 0.2 309 311    {:5.1f}  50.0  995\n", light / 2,
+                            light / 2, light / 2, minute == 90 ? -99.9 : 4.5);
+    }
+    FileOfWeather file("a.dat", text + "*U0300\n 1 2 3\n");
+    const std::string minutes = "days = 0.000694444444444444444\nfill = \"linear\"\n";
+    const Weather weather = file.weather(minutes);
+    CHECK(weather.day() == 59);
+    CHECK(weather.place().latitude == Approx(52.25));
+    CHECK(weather.place().longitude == Approx(7.5));
+    CHECK(weather.of_step(1, 60, 60).radiation == Approx(0).margin(1e-12));
+    CHECK(weather.of_step(1, 120, 60).radiation == Approx(300 * 3600e-6));
+    CHECK(weather.of_step(1, 92, 4).temperature == Approx(4.5));
+    CHECK(weather.of_step(1, 92, 4).pressure == Approx(99.5));
+    CHECK_THAT(FileOfWeather("b.dat", text.substr(0, text.size() - 80)).refusal(minutes),
+               Contains("two lines of 10 and 11"));
+}
+
 TEST_CASE("missing rows of several gaps are filled on lines between their neighbours", "[weather]") {
     FileOfWeather file("w.csv", "time (h),temperature (degC)\n0,0\n1,1\n2,2\n5,5\n6,6\n7,7\n9,9\n10,NA\n11,11\n");
     CHECK_THAT(file.refusal("fill = \"linear\"\nfill_hours = 1\n"), Contains("w.csv:5") && Contains("3 hours since"));

@@ -14,6 +14,7 @@ WeatherTable read_weather_file(const std::filesystem::path& path, const WeatherR
     if (begins(0, "LOCATION,")) return read_epw(path, lines, reading);
     if (begins(1, "Date (MM/DD/YYYY)")) return read_tmy3(path, lines, reading);
     if (begins(0, "Latitude (decimal degrees)")) return read_pvgis(path, lines, reading);
+    if (begins(0, "*U0001") || begins(0, "*C0001")) return read_bsrn(path, lines, reading);
     if (begins(0, "-BEGIN HEADER-")) return read_nasa_power(path, lines, reading);
     return read_weather_csv(path, text, reading);
 }

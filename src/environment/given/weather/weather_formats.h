@@ -28,6 +28,7 @@ WeatherTable read_epw(const std::filesystem::path& path, TextLines lines, const 
 /// Typical years of the National Solar Radiation Data Base (Wilcox & Marion 2008).
 WeatherTable read_tmy3(const std::filesystem::path& path, TextLines lines, const WeatherReading& reading);
 /// Typical years of the European Commission's PVGIS: UTC; radiation is of a moment, some minutes after the stamp.
+WeatherTable read_bsrn(const std::filesystem::path& path, TextLines lines, const WeatherReading& reading);
 WeatherTable read_pvgis(const std::filesystem::path& path, TextLines lines, const WeatherReading& reading);
 /// Hours of NASA's POWER: a stamp is the beginning of its hour.
 WeatherTable read_nasa_power(const std::filesystem::path& path, TextLines lines, const WeatherReading& reading);
