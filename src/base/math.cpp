@@ -139,12 +139,16 @@ double arctangent_of_ends(double y, double x) {
     return arctangent_of_legs<double>({std::ldexp(y, -greater)}, {std::ldexp(x, -greater)});
 }
 
+Pair<double> square_root(Pair<double> x) {
+    const double root = std::sqrt(x.high);
+    const Pair<double> whole = product(root, root);
+    return {root, (((x.high - whole.high) - whole.low) + x.low) / (2 * root)};
+}
+
 /// sqrt(1 - x^2) for |x| < 1.
 Pair<double> other_leg(double x) {
     const Pair<double> square = product(x, x), left = sum_in_order(1.0, -square.high);
-    const double root = std::sqrt(left.high);
-    const Pair<double> whole = product(root, root);
-    return {root, (((left.high - whole.high) - whole.low) + (left.low - square.low)) / (2 * root)};
+    return square_root({left.high, left.low - square.low});
 }
 
 }  // namespace
@@ -232,10 +236,8 @@ double hypot(double x, double y) {
     const int scale = is_plain_leg(greater) && is_plain_leg(less) ? 0 : std::ilogb(greater);
     if (scale != 0) greater = std::ldexp(greater, -scale), less = std::ldexp(less, -scale);
     const Pair<double> a = product(greater, greater), b = product(less, less), both = sum_in_order(a.high, b.high);
-    const double root = std::sqrt(both.high);
-    const Pair<double> whole = product(root, root);
-    const double rest = ((both.high - whole.high) - whole.low) + (both.low + (a.low + b.low));
-    const double length = root + rest / (2 * root);
+    const Pair<double> root = square_root({both.high, both.low + (a.low + b.low)});
+    const double length = root.high + root.low;
     return scale == 0 ? length : std::ldexp(length, scale);
 }
 

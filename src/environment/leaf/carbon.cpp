@@ -5,6 +5,7 @@
 
 #include "base/bytes.h"
 #include "environment/exchange/changing_settings.h"
+#include "environment/exchange/measured_before.h"
 #include "environment/given/weather/weather.h"
 #include "environment/leaf/carbon/plant_sugar.h"
 #include "turtle/internode_bearers.h"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace espalier::environment {
 namespace {
@@ -62,6 +64,9 @@ struct Wish {
     double granted = 0;
 };
 
+/// The node that a module stands on.
+using NodeOfModule = std::function<std::uint32_t(std::uint32_t module, const glm::dvec3& place)>;
+
 class Carbon final : public EnvironmentProcess {
 public:
     Carbon(Settings& settings, const EnvironmentContext& context, Fields& fields)
@@ -83,8 +88,10 @@ public:
             half_.sink = settings.number_or("half", half_.sink, Range::between(1e-9, 10));
             half_.upkeep = half_.sink / 20;
         }
-        plants_.assign(context.plants, PlantCarbon{PlantSugar(seed), 0, {}, {}, {}, {}, {}});
-        for (PlantCarbon& plant : plants_) plant.all.brought = seed;
+        PlantCarbon beginning;
+        beginning.sugar = PlantSugar(seed);
+        beginning.all.brought = seed;
+        plants_.assign(context.plants, beginning);
     }
 
     void advance(const WorldView& world, std::span<const Query> queries, Fields&) override {
@@ -112,7 +119,7 @@ public:
     }
 
     std::vector<Quantity> statistics(std::uint32_t plant) const override {
-        const PlantCarbon none{PlantSugar(0), 0, {}, {}, {}, {}, {}};
+        const PlantCarbon none;
         const PlantCarbon& of = plant < plants_.size() ? plants_[plant] : none;
         const Ledger& step = of.step;
         return {{"gain", step.gained, "g"},
@@ -176,11 +183,7 @@ public:
 
 private:
     void find_leaves(const Environment& environment) const {
-        const auto leaves = environment.find(leaves_), self = environment.find(name_);
-        const std::vector<OrganQuantity> all = environment.organ_quantities();
-        const bool gain = std::any_of(all.begin(), all.end(),
-                                      [&](const OrganQuantity& one) { return one.name == leaves_ + ".gain"; });
-        if (leaves && gain && *leaves < *self) return;
+        if (measures_before(environment, name_, leaves_, "gain")) return;
         throw UserError(leaves_place_,
                         fmt::format("'{}' needs a leaf-exchange called '{}', before it in the scene", name_, leaves_));
     }
@@ -189,12 +192,12 @@ private:
               const std::vector<std::size_t>& own) {
         PlantCarbon& of = plants_[plant.plant];
         of.step = {};
-        of.tree = sugar_tree(plant, ways_);
-        const turtle::OrganBearers bearers(plant.interpretation->geometry, *plant.string);
+        of.tree = transports_ ? sugar_tree(plant, ways_) : sugar_pool(plant);
+        const NodeOfModule node_of = nodes_of(plant);
         std::vector<Wish> wishes;
-        for (const std::size_t i : own) wishes.push_back(wish_of(queries[i], i, bearers));
+        for (const std::size_t i : own) wishes.push_back(wish_of(queries[i], i, node_of));
         for (const Wish& wish : wishes) load(of, wish);
-        load_leaves(of, plant, environment, bearers);
+        load_leaves(of, plant, environment, node_of);
         note_organs(of, plant.plant, wishes);
         of.step.shed += of.sugar.put_into(of.tree, plant);
         upkeep(of, wishes);
@@ -215,11 +218,20 @@ private:
         of.all.add(of.step);
     }
 
-    Wish wish_of(const Query& query, std::size_t i, const turtle::OrganBearers& bearers) const {
+    /// A pool is one node.
+    NodeOfModule nodes_of(const PlantView& plant) const {
+        if (!transports_) return [](std::uint32_t, const glm::dvec3&) { return 0u; };
+        return [bearers = turtle::OrganBearers(plant.interpretation->geometry, *plant.string)](
+                   std::uint32_t module, const glm::dvec3& place) {
+            const std::uint32_t bearer = bearers.of(module, place);
+            return bearer == turtle::no_bearer ? 0 : bearer;
+        };
+    }
+
+    Wish wish_of(const Query& query, std::size_t i, const NodeOfModule& node_of) const {
         Wish wish;
         wish.query = i;
-        const std::uint32_t bearer = bearers.of(query.module, query.pose.position);
-        if (bearer != turtle::no_bearer) wish.node = bearer;
+        wish.node = node_of(query.module, query.pose.position);
         wish.grams = query.parameters[0];
         if (query.parameters.size() > 1) {
             wish.has = query.parameters[1];
@@ -243,14 +255,13 @@ private:
 
     /// What leaves gain is loaded where they stand; what they respire is taken there.
     void load_leaves(PlantCarbon& of, const PlantView& plant, const Environment& environment,
-                     const turtle::OrganBearers& bearers) const {
+                     const NodeOfModule& node_of) const {
         if (leaves_.empty()) return;
         const auto gains = environment.organ_values(leaves_ + ".gain", plant.plant);
         for (std::uint32_t module = 0; gains && module < gains->size(); ++module) {
             const double grams = carbon_of_mole * (*gains)[module];
             if (!(std::abs(grams) > 0)) continue;
-            const std::uint32_t bearer = bearers.of(module, {});
-            SugarNode& node = of.tree.nodes[bearer == turtle::no_bearer ? 0 : bearer];
+            SugarNode& node = of.tree.nodes[node_of(module, {})];
             (grams > 0 ? node.source : node.upkeep) += std::abs(grams) / step_days_;
             if (grams > 0) of.step.gained += grams;
         }
@@ -297,10 +308,7 @@ private:
         for (const Wish& wish : wishes) demand += std::max(0.0, wish.grams) / yield_;
         const double share = demand > pool ? pool / demand : 1;
         for (Wish& wish : wishes) wish.granted = share * std::max(0.0, wish.grams);
-        SugarTree whole;
-        whole.nodes.emplace_back().volume = 1;
-        whole.identities.push_back(0);
-        of.sugar.take_from(whole, {std::max(0.0, pool - share * demand)});
+        of.sugar.take_from(of.tree, {std::max(0.0, pool - share * demand)});
     }
 
     void transport(PlantCarbon& of, std::vector<Wish>& wishes) {

@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "environment/exchange/changing_settings.h"
+#include "environment/exchange/measured_before.h"
 #include "environment/given/weather/weather.h"
 #include "environment/leaf/gas/settings.h"
 
@@ -20,9 +21,8 @@ namespace {
 using namespace leaf;
 
 constexpr double seconds_per_day = 86400;
-constexpr double water_density = 0.998;    ///< g cm-3
-constexpr double photons_of_joule = 4.57;  ///< umol of daylight's PAR (McCree 1972)
-constexpr double least_part = 1e-3;        ///< of a leaf, which is not divided below
+constexpr double water_density = 0.998;  ///< g cm-3
+constexpr double least_part = 1e-3;      ///< of a leaf, which is not divided below
 
 using Values = std::shared_ptr<const std::vector<float>>;
 
@@ -185,14 +185,8 @@ private:
     }
 
     void find_light(const Environment& environment) {
-        const auto light = environment.find(light_), self = environment.find(name_);
-        const std::vector<OrganQuantity> all = environment.organ_quantities();
-        const auto measures = [&](const std::string& quantity) {
-            return std::any_of(all.begin(), all.end(),
-                               [&](const OrganQuantity& one) { return one.name == light_ + quantity; });
-        };
-        has_near_infrared_ = measures(".power.nir");
-        if (light && measures(".power") && *light < *self) return;
+        has_near_infrared_ = measures_before(environment, name_, light_, "power.nir");
+        if (measures_before(environment, name_, light_, "power")) return;
         throw UserError(
             light_place_,
             fmt::format("'{}' needs a canopy-light or a ray-light called '{}', before it in the scene", name_, light_));

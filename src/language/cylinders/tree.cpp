@@ -68,15 +68,8 @@ public:
         std::vector<measured::LooseAxis> loose;
         loose.reserve(axes.size());
         for (const measured::PartAxis& axis : axes) {
-            measured::LooseAxis& out = loose.emplace_back();
-            if (axis.bearer == measured::PartAxis::none) {
-                out.plant = plants.plants.size();
-                plants.plants.push_back({});
-            } else {
-                out.bearer = axis.bearer;
-                out.plant = loose[axis.bearer].plant;
-            }
-            out.place = {name_, parts_[axis.parts[0]].line, 1};
+            const Place place{name_, parts_[axis.parts[0]].line, 1};
+            measured::LooseAxis& out = measured::begin_axis(axis, place, loose, plants);
             const std::int32_t number = cylinders_[axis.parts[0]].branch;
             out.label = number >= 0 ? fmt::format("branch {}", number) : "";
         }

@@ -103,4 +103,17 @@ std::vector<PartAxis> axes_of_parts(
     return axes;
 }
 
+LooseAxis& begin_axis(const PartAxis& axis, Place place, std::vector<LooseAxis>& axes, MeasuredPlants& plants) {
+    LooseAxis& begun = axes.emplace_back();
+    begun.place = std::move(place);
+    if (axis.bearer == PartAxis::none) {
+        begun.plant = plants.plants.size();
+        plants.plants.push_back({});
+    } else {
+        begun.bearer = axis.bearer;
+        begun.plant = axes[axis.bearer].plant;
+    }
+    return begun;
+}
+
 }  // namespace espalier::language::measured

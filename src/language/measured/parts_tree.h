@@ -3,6 +3,8 @@
 
 #include "espalier/base/error.h"
 
+#include "language/measured/joining.h"
+
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -35,6 +37,9 @@ std::vector<PartAxis> axes_of_parts(
     const std::vector<NamedPart>& parts, const std::function<bool(std::int32_t parent)>& is_root,
     const std::function<std::size_t(std::uint32_t part, const std::vector<std::uint32_t>& borne)>& next,
     const std::string& file);
+
+/// Appends the axis, without nodes: on the one that bears it, or as the first of a plant of its own.
+LooseAxis& begin_axis(const PartAxis& axis, Place place, std::vector<LooseAxis>& axes, MeasuredPlants& plants);
 
 /// For each part, the part that bears it; PartAxis::none for roots. Throws as above.
 std::vector<std::uint32_t> bearers_of(const std::vector<NamedPart>& parts,

@@ -59,14 +59,9 @@ public:
         std::vector<measured::LooseAxis> loose;
         MeasuredPlants plants;
         for (const measured::PartAxis& axis : axes) {
-            measured::LooseAxis& out = loose.emplace_back();
-            out.place = {name_, parts_[axis.parts[0]].line, 1};
-            if (axis.bearer == measured::PartAxis::none) {
-                out.plant = plants.plants.size();
-                plants.plants.push_back({});
-            } else {
-                out.bearer = axis.bearer;
-                out.plant = loose[axis.bearer].plant;
+            const Place place{name_, parts_[axis.parts[0]].line, 1};
+            measured::LooseAxis& out = measured::begin_axis(axis, place, loose, plants);
+            if (out.bearer) {
                 out.on_node = place_of[axis.on_part];
                 out.nodes.push_back(node(axis.on_part));
             }

@@ -222,6 +222,9 @@ TEST_CASE("BSRN: minutes in two lines, places that count from the pole, and code
     CHECK(weather.of_step(1, 120, 60).radiation == Approx(300 * 3600e-6));
     CHECK(weather.of_step(1, 92, 4).temperature == Approx(4.5));
     CHECK(weather.of_step(1, 92, 4).pressure == Approx(99.5));
+    const std::size_t place = text.find("*U0004");
+    FileOfWeather without("c.dat", text.substr(0, place) + text.substr(text.find("*U0100")));
+    CHECK_FALSE(without.weather(minutes).table()->place.has_value());
     CHECK_THAT(FileOfWeather("b.dat", text.substr(0, text.size() - 80)).refusal(minutes),
                Contains("two lines of 10 and 11"));
 }

@@ -222,6 +222,19 @@ TEST_CASE("a girdle keeps sugar above it", "[carbon]") {
     CHECK(fed(0, 2, 3) > 1.2 * fed(0.004, 2, 3));
 }
 
+TEST_CASE("a plant that sheds all its internodes loses their sugar", "[carbon]") {
+    Environment environment = carbon_process(transport);
+    AskingPlants standing = fruiting_stem({0.004, 0.004, 0.004, 0.004, 0.004});
+    standing.exchange(environment, 1);
+    const double reserve = of(environment, "carbon.reserve");
+    CHECK(reserve > 0);
+    AskingPlants stump = plant_with({wish(1)});
+    stump.exchange(environment, 2);
+    CHECK(of(environment, "carbon.shed") == Approx(reserve));
+    CHECK(stump.parameters()[0] == 0);
+    CHECK(std::abs(of(environment, "carbon.balance")) < 1e-12);
+}
+
 TEST_CASE("fewer fruits become larger ones, and the nearer sink gets more", "[carbon]") {
     CHECK(fed(0.004, 0, 1) > 1.2 * fed(0.004, 2, 1));
     // Two fruits with one wish: the one beside the leaf's own side of the stem, and one across a thin internode.

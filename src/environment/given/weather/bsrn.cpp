@@ -1,10 +1,9 @@
 // Months of the Baseline Surface Radiation Network in its station-to-archive form (Hegner et al. 1998, "Technical plan
 // for BSRN data management", WMO TD 882): logical records that begin with a star and their number.
+#include "base/text.h"
 #include "environment/given/weather/weather_text.h"
 
 #include <fmt/format.h>
-
-#include <sstream>
 
 namespace espalier::environment {
 namespace {
@@ -19,12 +18,7 @@ constexpr std::array<FormColumn, 5> columns{{{Measure::global, 2, 1, -99},
                                              {Measure::humidity, 19, 0.01, -99},
                                              {Measure::pressure, 20, 0.1, -99}}};
 
-Words words_of(const std::string& text) {
-    std::istringstream in(text);
-    Words words;
-    for (std::string word; in >> word;) words.push_back(std::move(word));
-    return words;
-}
+constexpr const char* blanks = " \t";
 
 class Month {
 public:
@@ -59,20 +53,21 @@ private:
     }
 
     void read_month(const TextLine& line) {
-        const Words words = words_of(line.text);
+        const Words words = words_of(line.text, blanks);
         month_ = static_cast<int>(number(words, 1, line, "the month"));
         year_ = static_cast<int>(number(words, 2, line, "the year"));
     }
 
     /// Latitudes count from the south pole, longitudes from 180 degrees west.
     void read_place(const TextLine& line) {
-        const Words words = words_of(line.text);
-        place_ = {number(words, 0, line, "the latitude") - 90, number(words, 1, line, "the longitude") - 180, 0};
+        const Words words = words_of(line.text, blanks);
+        place_ =
+            GroundPlace{number(words, 0, line, "the latitude") - 90, number(words, 1, line, "the longitude") - 180, 0};
         height_ = number(words, 2, line, "the height");
     }
 
     void read_minute(const TextLine& line) {
-        Words words = words_of(line.text);
+        Words words = words_of(line.text, blanks);
         if (begun_.empty() && words.size() == words_of_first) {
             begun_ = std::move(words);
             return;
@@ -101,10 +96,10 @@ private:
     const WeatherReading& reading_;
     WeatherRows rows_;
     CalendarOfMonths calendar_;
-    GroundPlace place_;
+    std::optional<GroundPlace> place_;  ///< none: record 0004 is missing
     std::string record_;
     int line_of_record_ = 0, year_ = 0, month_ = 0;
-    double height_ = 0;
+    std::optional<double> height_;
     Words begun_;  ///< the minute whose second line is to come
 };
 

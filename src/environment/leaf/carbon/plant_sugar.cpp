@@ -27,17 +27,19 @@ double conductance_between(double first, double second) {
 
 }  // namespace
 
+SugarTree sugar_pool(const PlantView& plant) {
+    SugarTree tree;
+    tree.nodes.emplace_back().volume = 1;
+    tree.internodes_of_module.assign(plant.string->size(), SugarTree::none);
+    tree.identities.push_back(0);
+    return tree;
+}
+
 SugarTree sugar_tree(const PlantView& plant, const SugarWays& ways) {
     const PlantGeometry& geometry = plant.interpretation->geometry;
+    if (geometry.internodes.empty()) return sugar_pool(plant);
     SugarTree tree;
     tree.internodes_of_module.assign(plant.string->size(), SugarTree::none);
-    if (geometry.internodes.empty()) {
-        SugarNode alone;
-        alone.volume = 1;
-        tree.nodes.push_back(alone);
-        tree.identities.push_back(0);
-        return tree;
-    }
     const std::vector<std::uint32_t> bearers = turtle::internode_bearers(geometry, *plant.string);
     std::vector<double> own(geometry.internodes.size());
     for (std::uint32_t i = 0; i < geometry.internodes.size(); ++i) {
@@ -73,7 +75,7 @@ double PlantSugar::put_into(SugarTree& tree, const PlantView& plant) const {
     std::map<std::uint64_t, double> volumes;
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         from[i] = tree.identities[i];
-        if (!grams_.contains(from[i]) && plant.string->has_lineage()) {
+        if (from[i] != 0 && !grams_.contains(from[i]) && plant.string->has_lineage()) {
             const std::uint64_t parent = plant.string->parent(plant.interpretation->geometry.internodes[i].module);
             if (!here.contains(parent)) from[i] = parent;
         }

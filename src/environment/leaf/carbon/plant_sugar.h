@@ -27,11 +27,13 @@ struct SugarTree {
 };
 
 SugarTree sugar_tree(const PlantView& plant, const SugarWays& ways);
+/// The whole plant as one node of 1 cm3.
+SugarTree sugar_pool(const PlantView& plant);
 
 /// Grams of carbon by identity; the seed's and what a plant without internodes holds stands at 0.
 class PlantSugar {
 public:
-    explicit PlantSugar(double seed) : grams_{{0, seed}} {}
+    explicit PlantSugar(double seed = 0) : grams_{{0, seed}} {}
 
     double total() const;
     /// Gives the nodes what their modules hold. A module that is gone leaves it to those that were born of it; what

@@ -18,13 +18,16 @@ struct BoundaryLayer {
 };
 
 /// What falls on a leaf and stays there, per area of one side.
+/// Of daylight's PAR, umol (McCree 1972).
+inline constexpr double photons_of_joule = 4.57;
+
 struct LeafLight {
     double photons = 0;        ///< of PAR, umol m-2 s-1
     double near_infrared = 0;  ///< W m-2
     double thermal = 0;        ///< radiation of sky, soil and neighbours that meets both sides together, W m-2
 
-    /// W m-2; a mol of daylight's PAR is 1 / 4.57 MJ (McCree 1972).
-    double short_wave() const { return photons / 4.57 + near_infrared; }
+    /// W m-2
+    double short_wave() const { return photons / photons_of_joule + near_infrared; }
 };
 
 struct LeafKind {
