@@ -1,13 +1,14 @@
 """What the program does to models, scenes and runs. Keywords are the options of `espalier COMMAND --help`."""
 
+import contextlib
 import os
 import pathlib
-import tempfile
 
-from ._espalier import Error
-from .program import call, call_for_json, folder_for
+from . import _espalier
+from .drawing import Drawable, exported_file, page_element, page_file, picture_file, png_bytes, temporary_folder
+from .program import call, call_for_json
 from .recorded import Run
-from .scene import toml
+from .scene import Scene, toml
 
 
 def render(what, output, **options):
@@ -15,15 +16,20 @@ def render(what, output, **options):
 
     The extension says whether it is a picture or a film; size="400x300". Returns the path.
     """
-    with folder_for(what) as path:
-        call("render", path, output=output, quiet=True, **options)
-    return pathlib.Path(output)
+    with _folder_for(what) as folder:
+        return picture_file(folder, output, **options)
 
 
 def png(what, **options):
     """The bytes of a picture of a run, a model or a scene."""
-    with tempfile.TemporaryDirectory(prefix="espalier-") as folder:
-        return render(what, pathlib.Path(folder) / "picture.png", **{"size": "480x360", **options}).read_bytes()
+    with _folder_for(what) as folder:
+        return png_bytes(folder, **options)
+
+
+def html(what, height=420, **options):
+    """The page of share() as an element of a notebook's cell, which needs neither a server nor a network."""
+    with _folder_for(what) as folder:
+        return page_element(folder, height, **options)
 
 
 def share(what, output, **options):
@@ -31,18 +37,8 @@ def share(what, output, **options):
 
     A model or a scene is grown first. Returns the path.
     """
-    with folder_for(what) as folder:
-        call_for_json("share", folder, output=output, **options)
-    return pathlib.Path(output)
-
-
-def html(what, height=420, **options):
-    """The page of share() as an element of a notebook's cell, which needs neither a server nor a network."""
-    with tempfile.TemporaryDirectory(prefix="espalier-") as folder:
-        page = share(what, pathlib.Path(folder) / "page.html", **{"frames": 60, **options}).read_text(encoding="utf-8")
-    style = f"width: 100%; height: {height}px; border: 0"
-    quoted = page.replace("&", "&amp;").replace('"', "&quot;")
-    return f'<iframe sandbox="allow-scripts" style="{style}" srcdoc="{quoted}"></iframe>'
+    with _folder_for(what) as folder:
+        return page_file(folder, output, **options)
 
 
 def export(run, output, **options):
@@ -50,9 +46,8 @@ def export(run, output, **options):
 
     A model or a scene is grown first. Returns the path.
     """
-    with folder_for(run) as path:
-        call("export", path, output=output, quiet=True, **options)
-    return pathlib.Path(output)
+    with _folder_for(run) as folder:
+        return exported_file(folder, output, **options)
 
 
 def plot(runs, output, **options):
@@ -69,7 +64,7 @@ def analyse(run, **options):
     """
     import pandas
 
-    with tempfile.TemporaryDirectory(prefix="espalier-") as folder:
+    with temporary_folder() as folder:
         call("analyse", _path_of(run), output=folder, no_picture=True, **options)
         return {file.stem: pandas.read_csv(file) for file in sorted(pathlib.Path(folder).glob("*.csv"))}
 
@@ -99,9 +94,9 @@ def sweep(scene, vary, jobs=None, output=None, **options):
     import pandas
 
     if not isinstance(scene, (str, os.PathLike)):
-        raise Error("a sweep takes the file of a scene or a model; vary a scene made in Python in a loop of es.World")
+        raise _espalier.Error("a sweep takes the file of a scene or a model; vary a scene made in Python in a loop of es.World")
     varied = {key: value if isinstance(value, str) else ",".join(map(_word, value)) for key, value in vary.items()}
-    with tempfile.TemporaryDirectory(prefix="espalier-") as scratch:
+    with temporary_folder() as scratch:
         folder = pathlib.Path(output or pathlib.Path(scratch) / "sweep")
         call("sweep", scene, vary=varied, jobs=jobs, output=folder, quiet=True, **options)
         return pandas.read_csv(folder / "sweep.csv")
@@ -111,7 +106,7 @@ def _word(value):
     return value if isinstance(value, str) else toml(value)
 
 
-class tree:
+class tree(Drawable):
     """A tree from a few settings, as `espalier tree`: tree(preset="weeping", seed=4, crown_width=6)."""
 
     def __init__(self, preset=None, seed=0, **settings):
@@ -127,19 +122,24 @@ class tree:
 
     def save_run(self, folder):
         """Records the growth in a folder, and opens it."""
-        with tempfile.TemporaryDirectory(prefix="espalier-") as scratch:
+        with temporary_folder() as scratch:
             call("tree", output=pathlib.Path(scratch) / "tree.obj", run=folder, quiet=True, **self._settings)
         return Run(folder)
 
-    def _repr_png_(self):
-        with tempfile.TemporaryDirectory(prefix="espalier-") as scratch:
-            return png(self.save_run(pathlib.Path(scratch) / "run"))
-
-    def _repr_html_(self):
-        with tempfile.TemporaryDirectory(prefix="espalier-") as scratch:
-            return html(self.save_run(pathlib.Path(scratch) / "run"))
+    @contextlib.contextmanager
+    def _run_folder(self):
+        with temporary_folder() as scratch:
+            yield self.save_run(pathlib.Path(scratch) / "run").folder
 
 
 def _path_of(run):
     return run.folder if isinstance(run, Run) else run
 
+
+def _folder_for(what):
+    """A context whose value is the folder of a run: of one that there is, or of one that is grown for it."""
+    if isinstance(what, Drawable):
+        return what._run_folder()
+    if isinstance(what, (str, os.PathLike)) and pathlib.Path(what).is_dir():
+        return contextlib.nullcontext(what)
+    return Scene.of(what)._run_folder()

@@ -7,7 +7,6 @@ import re
 import shutil
 import signal
 import subprocess
-import tempfile
 
 from . import _espalier
 
@@ -73,35 +72,6 @@ def call(command, *arguments, **values):
 def call_for_json(command, *arguments, **values):
     """As call(), with what the command prints as JSON."""
     return json.loads(call(command, *arguments, json=True, **values))
-
-
-class folder_for:
-    """The folder to look at: that of a run, or of one that is grown of a model, a scene or its file and kept while this
-    is open."""
-
-    def __init__(self, what):
-        self._what = what
-        self._made = None
-
-    def __enter__(self):
-        from .recorded import Run
-        from .scene import Plant, Scene, record
-
-        what = self._what
-        if isinstance(what, _espalier.Model):
-            what = Scene(plants=[Plant(what)])
-        if isinstance(what, Run):
-            return what.folder
-        if not isinstance(what, Scene) and pathlib.Path(what).is_dir():
-            return what
-        self._made = tempfile.TemporaryDirectory(prefix="espalier-")
-        run = pathlib.Path(self._made.name) / "run"
-        record(what, run)
-        return run
-
-    def __exit__(self, *_):
-        if self._made:
-            self._made.cleanup()
 
 
 def _error_of(code, told, printed):

@@ -1,5 +1,6 @@
 """Recorded runs."""
 
+import contextlib
 import json
 import pathlib
 
@@ -7,6 +8,7 @@ import numpy
 
 from . import _espalier
 from .conversions import add_conversions, file_to_vtk, to_pyvista
+from .drawing import Drawable, exported_file, temporary_folder
 
 
 class RecordedInternodes:
@@ -47,7 +49,7 @@ class RecordedInternodes:
         return {name: self._loaded.parameter(name) for name in self._loaded.parameter_names}
 
 
-class RecordedFrame:
+class RecordedFrame(Drawable):
     """A recorded step: step, time (the scene's unit), internodes, fields. Its files are read when they are asked for."""
 
     def __init__(self, run, step, time):
@@ -67,15 +69,12 @@ class RecordedFrame:
         """The recorded field of that name, such as "light"."""
         return self._run.field(name, self.step)
 
-    def _repr_png_(self):
-        from .looking import png
+    @property
+    def _picture_options(self):
+        return {"step": self.step}
 
-        return png(self._run, step=self.step)
-
-    def _repr_html_(self):
-        from .looking import html
-
-        return html(self._run, step=self.step)
+    def _run_folder(self):
+        return self._run._run_folder()
 
 
 @add_conversions
@@ -123,7 +122,7 @@ class History:
         return pandas.DataFrame(self.rows)
 
 
-class Run:
+class Run(Drawable):
     """A run as it lies in a folder, also one that is still going."""
 
     def __init__(self, folder):
@@ -166,11 +165,10 @@ class Run:
 
     def organs_at(self, step):
         """The same of other frames: a step, "first", "last", "all" or "FROM:TO[:EVERY]"."""
-        import io
-
         import pandas
 
-        return pandas.read_csv(io.StringIO(self._exported("csv", step)))
+        with self._exported("csv", step) as file:
+            return pandas.read_csv(file)
 
     def history(self, identity, plant=0):
         """The life of the organ of that identity; of a plant by its number or name. Raises Error if no frame has it."""
@@ -188,7 +186,8 @@ class Run:
 
     def to_mtg(self, step="last"):
         """The plants of a frame as the text of a multiscale tree graph, which openalea.mtg reads."""
-        return self._exported("mtg", step)
+        with self._exported("mtg", step) as file:
+            return file.read_text(encoding="utf-8")
 
     def to_vtk(self, step=None):
         """The plants of a frame as vtkPolyData: lines and polygons with all that the timeline keeps; default: the last."""
@@ -204,23 +203,13 @@ class Run:
         """The same as pyvista.PolyData."""
         return to_pyvista(self.to_vtk(step))
 
+    @contextlib.contextmanager
     def _exported(self, format, step):
-        import tempfile
+        with temporary_folder() as folder:
+            yield exported_file(self.folder, pathlib.Path(folder) / f"run.{format}", step=step)
 
-        from .looking import export
-
-        with tempfile.TemporaryDirectory(prefix="espalier-") as folder:
-            return export(self, pathlib.Path(folder) / f"run.{format}", step=step).read_text(encoding="utf-8")
-
-    def _repr_png_(self):
-        from .looking import png
-
-        return png(self)
-
-    def _repr_html_(self):
-        from .looking import html
-
-        return html(self)
+    def _run_folder(self):
+        return contextlib.nullcontext(self.folder)
 
 
 def open(folder):

@@ -1,5 +1,6 @@
 """Scenes: plants and the processes that answer them."""
 
+import contextlib
 import json
 import numbers
 import os
@@ -8,6 +9,7 @@ import pathlib
 import numpy
 
 from . import _espalier
+from .drawing import Drawable, temporary_folder
 
 
 def toml(value):
@@ -31,7 +33,7 @@ def _settings(values):
     return [(key, toml(value)) for key, value in (values or {}).items()]
 
 
-class Model(_espalier.Model):
+class Model(Drawable, _espalier.Model):
     """A model, read and compiled: Model("tree.l") of any notation or Model(text="lsystem: 1 ..."); NAME=value replaces
     a #define. Raises Error with file, line and column. Pickled, it is its text, or its path and not the file."""
 
@@ -52,15 +54,10 @@ class Model(_espalier.Model):
     def __reduce__(self):
         return _read_model, self._read_from
 
-    def _repr_png_(self):
-        from .looking import png
-
-        return png(self)
-
-    def _repr_html_(self):
-        from .looking import html
-
-        return html(self)
+    @contextlib.contextmanager
+    def _run_folder(self):
+        with Scene(plants=[Plant(self)])._run_folder() as folder:
+            yield folder
 
 
 def _read_model(path, text, defines):
@@ -107,7 +104,7 @@ class Plant:
         return f"Plant({self.model!r}, at={self.at!r}, name={self.name!r})"
 
 
-class Scene:
+class Scene(Drawable):
     """Plants, and processes by the names that the models ask: {"light": process("voxel-shade")} or Process objects.
 
     plants: Plants or Models, or one of them. processes advance in their order; the name of a kind, such as "markers",
@@ -153,15 +150,11 @@ class Scene:
         self._made_of = made_of
         self._make()
 
-    def _repr_png_(self):
-        from .looking import png
-
-        return png(self)
-
-    def _repr_html_(self):
-        from .looking import html
-
-        return html(self)
+    @contextlib.contextmanager
+    def _run_folder(self, steps=None):
+        with temporary_folder() as folder:
+            record(self, folder, overwrite=True, steps=steps)
+            yield folder
 
     @classmethod
     def of(cls, scene, seed=None, steps=None, set=None, trust=False):

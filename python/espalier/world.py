@@ -1,12 +1,11 @@
 """Worlds that grow step by step, and what their frames show."""
 
-import tempfile
-
 import numpy
 
 from . import _espalier
+from .drawing import Drawable
 from .progress import Bar
-from .scene import Scene, record
+from .scene import Scene
 
 
 class _Parameters:
@@ -71,7 +70,7 @@ class Internodes:
         return f"{len(self)} internodes"
 
 
-class Frame:
+class Frame(Drawable):
     """One step of a world after its exchange: step, time (the scene's unit), plants, internodes, fields."""
 
     def __init__(self, frame, scene):
@@ -100,19 +99,8 @@ class Frame:
         """
         return self._frame.quantities(plant)
 
-    def _repr_png_(self):  # of the same scene grown anew up to this step, which gives the same plants
-        from .looking import png
-
-        with tempfile.TemporaryDirectory(prefix="espalier-") as folder:
-            record(self._scene, folder, overwrite=True, steps=self.step)
-            return png(folder)
-
-    def _repr_html_(self):
-        from .looking import html
-
-        with tempfile.TemporaryDirectory(prefix="espalier-") as folder:
-            record(self._scene, folder, overwrite=True, steps=self.step)
-            return html(folder)
+    def _run_folder(self):  # of the same scene grown anew up to this step, which gives the same plants
+        return self._scene._run_folder(self.step)
 
 
 class World:

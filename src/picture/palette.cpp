@@ -1,6 +1,7 @@
 #include "picture/palette.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 namespace espalier::picture {
@@ -71,6 +72,16 @@ std::span<const Rgb> field_colours(std::size_t number, bool dark) {
 
 Rgb category_colour(std::size_t number) {
     return categories[number % categories.size()];
+}
+
+std::optional<Rgb> hex_colour(const std::string& text) {
+    if (text.size() != 7 || text[0] != '#') return std::nullopt;
+    unsigned number = 0;
+    const char* end = text.data() + text.size();
+    const auto [rest, wrong] = std::from_chars(text.data() + 1, end, number, 16);
+    if (wrong != std::errc() || rest != end) return std::nullopt;
+    const auto part = [&](unsigned shift) { return static_cast<std::uint8_t>(number >> shift & 255); };
+    return Rgb{part(16), part(8), part(0)};
 }
 
 }  // namespace espalier::picture

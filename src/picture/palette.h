@@ -4,7 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 
 namespace espalier::picture {
 
@@ -22,6 +24,9 @@ std::span<const Rgb> field_colours(std::size_t number, bool dark);
 
 /// Seven that colour-blind readers tell apart (Okabe & Ito 2008); more repeat.
 Rgb category_colour(std::size_t number);
+
+/// "#rrggbb"; none for another text.
+std::optional<Rgb> hex_colour(const std::string& text);
 
 inline constexpr Rgb no_value{165, 165, 165};
 

@@ -131,6 +131,12 @@ const std::map<std::string, std::vector<Room>> stations{
          {"files", "light stage"},
          {"charts", ". files"},
      }},
+    {"study",
+     {
+         {"fit", ""},
+         {"landscape", ""},
+         {"sweep", ""},
+     }},
     {"studio",
      {
          {"packets", ""},

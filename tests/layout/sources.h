@@ -17,7 +17,7 @@ inline const std::vector<std::string> growing{"base",   "geometry",    "lsystem"
 inline const std::vector<std::string> looking{"base", "geometry", "archive", "analysis", "formats", "picture", "view"};
 
 /// What grows and looks: these stand behind both lines.
-inline const std::vector<std::string> both{"studio", "python"};
+inline const std::vector<std::string> both{"study", "studio", "python"};
 
 inline bool is_in(const std::vector<std::string>& line, const std::string& station) {
     return std::find(line.begin(), line.end(), station) != line.end();
@@ -31,7 +31,10 @@ inline bool is_station(const std::string& name) {
 /// analysis, formats and picture stand side by side.
 inline bool may_include(const std::string& station, const std::string& other) {
     if (station == other || station == "app") return true;
-    if (is_in(both, station)) return other != "app";
+    if (is_in(both, station)) {
+        const auto at = std::find(both.begin(), both.end(), station);
+        return other != "app" && std::find(at, both.end(), other) == both.end();
+    }
     const std::vector<std::string>& line = is_in(growing, station) ? growing : looking;
     const auto at = std::find(line.begin(), line.end(), station);
     if ((station == "formats" || station == "picture") && (other == "analysis" || other == "formats")) return false;

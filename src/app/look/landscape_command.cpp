@@ -9,7 +9,7 @@
 #include "base/folder.h"
 #include "base/json_text.h"
 #include "formats/landscape_file.h"
-#include "landscape_scene.h"
+#include "study/landscape/landscape_scene.h"
 #include "picture_options.h"
 
 #include <fmt/format.h>
@@ -69,7 +69,7 @@ Examples:
         for (const fs::path& output : outputs()) require_extension(output);
         const PictureSize size = picture_size("--size", size_);
         const Deadline deadline(timeout_);
-        LandscapeScene scene = read_landscape(file_, sets_.overrides());
+        study::LandscapeScene scene = study::read_landscape(file_, sets_.overrides());
         scene.look.size = size;
         if (!memory_.empty()) scene.look.memory = size_in_bytes(memory_, "--memory");
         deadline.check("reading the plants");
@@ -91,7 +91,7 @@ private:
     }
 
     /// Makes the cards of the species that have any: as they look from the eye, from the middle of the terrain.
-    Cards cards_of(const LandscapeScene& scene, const Deadline& deadline) const {
+    Cards cards_of(const study::LandscapeScene& scene, const Deadline& deadline) const {
         const PlantedLandscape& landscape = scene.landscape;
         const glm::dvec3 towards = scene.view.eye - scene.view.target;
         Cards cards(landscape.species.size());
@@ -104,7 +104,7 @@ private:
         return cards;
     }
 
-    static void write(const LandscapeScene& scene, const Cards& cards, const fs::path& output,
+    static void write(const study::LandscapeScene& scene, const Cards& cards, const fs::path& output,
                       const Deadline& deadline) {
         if (output.has_parent_path()) make_folder(output.parent_path());
         if (output.extension() == ".png") {
@@ -122,7 +122,7 @@ private:
         write_landscape({scene.landscape, images, scene.view.eye, scene.look.ground, scene.first_species}, output);
     }
 
-    void write_cards(const LandscapeScene& scene, const Cards& cards) const {
+    void write_cards(const study::LandscapeScene& scene, const Cards& cards) const {
         make_folder(cards_);
         for (std::size_t i = 0; i < cards.size(); ++i) {
             for (std::size_t turn = 0; turn < cards[i].size(); ++turn) {

@@ -5,6 +5,7 @@
 #include "base/folder.h"
 #include "base/json_text.h"
 #include "formats/leaf_texture.h"
+#include "picture/palette.h"
 #include "picture_options.h"
 
 #include <fmt/format.h>
@@ -52,7 +53,7 @@ Examples:
         if (output_.extension() != ".png") {
             throw UserError(fmt::format("--output {}: expected the name of a .png file", output_.string()));
         }
-        const auto rgb = hex_colour(colour_);
+        const auto rgb = picture::hex_colour(colour_);
         if (!rgb) throw UserError(fmt::format("--colour {}: expected #rrggbb, such as #4a7a2a", colour_));
         texture_.rgb = *rgb;
         if (form_ != "blobs" && form_ != "twig") {

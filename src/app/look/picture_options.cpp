@@ -5,11 +5,11 @@
 #include "app/options.h"
 #include "base/number.h"
 #include "base/text.h"
+#include "picture/palette.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <vector>
 
@@ -45,18 +45,8 @@ PictureBackground picture_background(const std::string& text) {
     if (text == "light") return light_background;
     if (text == "dark") return dark_background;
     if (text == "transparent") return {light_background.rgb, true};
-    if (const auto rgb = hex_colour(text)) return {*rgb, false};
+    if (const auto rgb = picture::hex_colour(text)) return {*rgb, false};
     throw UserError(fmt::format("--background {}: expected light, dark, transparent or #rrggbb", text));
-}
-
-std::optional<std::array<std::uint8_t, 3>> hex_colour(const std::string& text) {
-    if (text.size() != 7 || text[0] != '#') return std::nullopt;
-    unsigned number = 0;
-    const char* end = text.data() + text.size();
-    const auto [rest, wrong] = std::from_chars(text.data() + 1, end, number, 16);
-    if (wrong != std::errc() || rest != end) return std::nullopt;
-    const auto part = [&](unsigned shift) { return static_cast<std::uint8_t>(number >> shift & 255); };
-    return std::array{part(16), part(8), part(0)};
 }
 
 FieldLook field_look(const std::string& text) {

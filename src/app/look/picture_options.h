@@ -6,9 +6,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <array>
-#include <cstdint>
-#include <optional>
 #include <string>
 
 namespace espalier::app {
@@ -47,8 +44,5 @@ PictureSize picture_size(const std::string& option, const std::string& text);
 PictureBackground picture_background(const std::string& text);
 /// "water", "water:volume", "water:slice", "water:slice=z0.5", "water:iso", "water:iso=0.3".
 FieldLook field_look(const std::string& text);
-
-/// "#rrggbb".
-std::optional<std::array<std::uint8_t, 3>> hex_colour(const std::string& text);
 
 }  // namespace espalier::app

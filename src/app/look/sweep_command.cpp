@@ -80,7 +80,7 @@ Examples:
             throw UserError(fmt::format("cannot read {}: the file does not exist", what.string()));
         Sweep sweep(base(), variations(), folder());
         if (list_) {
-            for (const SweepRun* run : sweep.to_do()) print(sweep.command(*run));
+            for (const study::SweepRun* run : sweep.folder().to_do()) print(sweep.command(*run));
             return exit_code::done;
         }
         if (table_) return make_table(sweep);
@@ -95,23 +95,24 @@ Examples:
 
 private:
     int make_table(const Sweep& sweep) const {
-        const std::vector<const SweepRun*> missing = sweep.to_do();
+        const std::vector<const study::SweepRun*> missing = sweep.folder().to_do();
         std::error_code unknown;
         if (fs::exists(folder(), unknown)) show_results(sweep);
         constexpr std::size_t most_named = 50;
         for (std::size_t i = 0; i < std::min(missing.size(), most_named); ++i) {
-            fmt::print(stderr, "missing: {}: {}\n", missing[i]->variant.name, Sweep::state(*missing[i]));
+            fmt::print(stderr, "missing: {}: {}\n", missing[i]->variant.name, study::SweptFolder::state(*missing[i]));
         }
         if (missing.size() > most_named) fmt::print(stderr, "... and {} more\n", missing.size() - most_named);
         if (missing.empty()) return exit_code::done;
-        throw RunError(fmt::format("{} of {} runs are missing", missing.size(), sweep.runs().size()));
+        throw RunError(fmt::format("{} of {} runs are missing", missing.size(), sweep.folder().runs().size()));
     }
 
     void show_results(const Sweep& sweep) const {
-        sweep.remove_old_complaints();
-        const std::vector<SweepResult> results = sweep.results();
-        tell(sweep.write_table(results));
-        if (wants_plot() && !results.empty()) draw(sweep.drawn(results));
+        const study::SweptFolder& runs = sweep.folder();
+        runs.remove_old_complaints();
+        const std::vector<study::SweepResult> results = runs.results();
+        tell(runs.write_table(results));
+        if (wants_plot() && !results.empty()) draw(runs.drawn(results));
     }
 
     void tell(const fs::path& file) const {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier::app {
+namespace espalier::study {
 
 /// Where and what is said of it, if something is wrong with what a key names.
 template <class Work>
@@ -44,4 +44,4 @@ struct SpeciesOfFile {
 void read_covers(const Settings& settings, SpeciesOfFile& of_file, std::vector<StandPlant>& stand,
                  const glm::dvec3& eye, const LevelDistances& distances, std::uint64_t seed);
 
-}  // namespace espalier::app
+}  // namespace espalier::study

@@ -1,4 +1,4 @@
-#include "landscape_species.h"
+#include "study/landscape/landscape_species.h"
 
 #include "archive/landscape/cover.h"
 
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 
-namespace espalier::app {
+namespace espalier::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -74,4 +74,4 @@ void read_covers(const Settings& settings, SpeciesOfFile& of_file, std::vector<S
     }
 }
 
-}  // namespace espalier::app
+}  // namespace espalier::study

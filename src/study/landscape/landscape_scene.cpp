@@ -1,10 +1,10 @@
-#include "landscape_scene.h"
+#include "study/landscape/landscape_scene.h"
 
 #include "archive/meshes/texture_file.h"
-#include "landscape_species.h"
+#include "study/landscape/landscape_species.h"
 #include "language/parser/vector_field.h"
+#include "picture/palette.h"
 #include "picture/stage/daylight.h"
-#include "picture_options.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -13,14 +13,14 @@
 
 #include <algorithm>
 
-namespace espalier::app {
+namespace espalier::study {
 namespace {
 
 namespace fs = std::filesystem;
 
-Rgb colour_setting(const Settings& settings, const char* key, const std::string& usual) {
+picture::Rgb colour_setting(const Settings& settings, const char* key, const std::string& usual) {
     const std::string text = settings.text_or(key, usual);
-    if (const auto rgb = hex_colour(text)) return *rgb;
+    if (const auto rgb = picture::hex_colour(text)) return *rgb;
     throw UserError(settings.place(key), fmt::format("expected #rrggbb, not '{}'", text));
 }
 
@@ -177,4 +177,4 @@ LandscapeScene read_landscape(const fs::path& file, const LandscapeOverrides& ov
         std::move(*of_file.first_run)};
 }
 
-}  // namespace espalier::app
+}  // namespace espalier::study

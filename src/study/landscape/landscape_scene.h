@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier::app {
+namespace espalier::study {
 
 /// What the file says of a landscape, and the landscape that follows from it.
 struct LandscapeScene {
@@ -30,4 +30,4 @@ using LandscapeOverrides = std::vector<std::pair<std::string, std::string>>;
 /// Throws UserError, naming file, line and column for what the file says wrongly.
 LandscapeScene read_landscape(const std::filesystem::path& file, const LandscapeOverrides& overrides);
 
-}  // namespace espalier::app
+}  // namespace espalier::study
