@@ -69,9 +69,11 @@ def analyse(run, **options):
         return {file.stem: pandas.read_csv(file) for file in sorted(pathlib.Path(folder).glob("*.csv"))}
 
 
-def fit(model, marks, **options):
-    """Finds the parameters of a model file from marks on a picture (.svg or .csv): a dict, as `fit --json` prints."""
-    return call_for_json("fit", model, marks, **options)
+def fit(what, *targets, parameter=None, **options):
+    """Finds parameters of the file of a model or a scene from measurements: fit("bush.l", "traits.csv",
+    parameter={"ANGLE": "10:60"}, method="abc", output="folder"). A dict, as `fit --json` prints; with abc the folder has
+    posterior.csv, a sample of what the parameters may have been."""
+    return call_for_json("fit", what, *targets, parameter=parameter, **options)
 
 
 def translate(file):

@@ -75,18 +75,35 @@ private:
     std::size_t count_;
 };
 
-/// From the curvature of the sum of squares at its minimum.
-std::vector<double> standard_errors(const Problem& problem, const VectorXd& x, double sum_of_squares) {
+/// Standard errors and their correlations, from the curvature of the sum of squares at its minimum: of the parameters
+/// that move a residual.
+void add_errors(LeastSquares& fit, const Problem& problem, const VectorXd& x, double sum_of_squares) {
     Eigen::MatrixXd jacobian(problem.values(), problem.inputs());
     problem.df(x, jacobian);
-    const Eigen::FullPivLU<Eigen::MatrixXd> curvature(jacobian.transpose() * jacobian);
-    std::vector<double> errors(static_cast<std::size_t>(problem.inputs()), std::nan(""));
-    if (!curvature.isInvertible() || problem.values() <= problem.inputs()) return errors;
-    const Eigen::MatrixXd covariance = curvature.inverse() * (sum_of_squares / (problem.values() - problem.inputs()));
+    fit.errors.assign(fit.values.size(), std::nan(""));
+    std::vector<int> moving;
+    const double most = jacobian.colwise().squaredNorm().maxCoeff();
     for (int k = 0; k < problem.inputs(); ++k) {
-        errors[static_cast<std::size_t>(k)] = std::sqrt(std::max(covariance(k, k), 0.0)) * problem.unit(k);
+        if (jacobian.col(k).squaredNorm() > 1e-16 * most) moving.push_back(k);
     }
-    return errors;
+    if (moving.empty() || problem.values() <= problem.inputs()) return;
+    const Eigen::MatrixXd slopes = jacobian(Eigen::all, moving);
+    const Eigen::FullPivLU<Eigen::MatrixXd> curvature(slopes.transpose() * slopes);
+    if (!curvature.isInvertible()) return;
+    const Eigen::MatrixXd covariance = curvature.inverse() * (sum_of_squares / (problem.values() - problem.inputs()));
+    const VectorXd errors = covariance.diagonal().cwiseMax(0).cwiseSqrt();
+    const VectorXd widths = curvature.inverse().diagonal().cwiseMax(0).cwiseSqrt();
+    fit.correlations.assign(fit.values.size() * fit.values.size(), 0);
+    for (std::size_t i = 0; i < moving.size(); ++i) {
+        const auto k = static_cast<std::size_t>(moving[i]);
+        fit.errors[k] = errors[static_cast<int>(i)] * problem.unit(moving[i]);
+        for (std::size_t j = 0; j < moving.size(); ++j) {
+            const double product = widths[static_cast<int>(i)] * widths[static_cast<int>(j)];
+            if (!(product > 0)) continue;
+            fit.correlations[k * fit.values.size() + static_cast<std::size_t>(moving[j])] =
+                curvature.inverse()(static_cast<int>(i), static_cast<int>(j)) / product;
+        }
+    }
 }
 
 }  // namespace
@@ -106,7 +123,7 @@ LeastSquares fit_least_squares(const std::vector<FreeParameter>& parameters, con
     VectorXd rest(problem.values());
     problem(x, rest);
     fit.residual = std::sqrt(rest.squaredNorm() / problem.values());
-    fit.errors = standard_errors(problem, x, rest.squaredNorm());
+    add_errors(fit, problem, x, rest.squaredNorm());
     fit.evaluations = problem.evaluations();
     return fit;
 }

@@ -18,6 +18,12 @@ struct LeastSquares {
     std::vector<double> errors;  ///< standard errors; NaN where the residuals do not decide a parameter
     double residual = 0;         ///< root mean square
     int evaluations = 0;
+    std::vector<double> correlations;  ///< of the errors, a row for each parameter; empty if none is known
+
+    /// 0 where it is not known.
+    double correlation(std::size_t one, std::size_t other) const {
+        return correlations.empty() ? 0 : correlations[one * values.size() + other];
+    }
 };
 
 /// As many residuals for all values of the parameters.

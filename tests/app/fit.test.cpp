@@ -69,7 +69,8 @@ TEST_CASE("fit without a scale finds ratios and angles, and says what the marks 
     REQUIRE(ratio.code == 0);
     CHECK(json::parse(ratio.out)["parameters"]["RATIO"]["value"] == Approx(0.85).epsilon(0.02));
     const Outcome size = place.run("fit herb.l herb.svg --parameter FIRST --parameter RATIO");
-    CHECK_THAT(size.out, Contains("the marks do not decide it") && Contains("espalier run herb.l --define FIRST="));
+    CHECK_THAT(size.out,
+               Contains("what was measured does not decide it") && Contains("espalier run herb.l --define FIRST="));
     CHECK(place.run("fit herb.l herb.svg").code == 0);  // RATIO, the only setting
 }
 
@@ -78,8 +79,49 @@ TEST_CASE("fit explains what it cannot do", "[app]") {
     place.write("herb.l", herb);
     place.write("herb.svg", picture(38, 0.85, 0.6, 0.14, true));
     CHECK_THAT(place.run("fit herb.l herb.svg --parameter ANGEL").err, Contains("--parameter ANGEL"));
-    CHECK_THAT(place.run("fit herb.l herb.png").err, Contains("holds no marks"));
+    place.write("herb.txt", "a herb\n");
+    CHECK_THAT(place.run("fit herb.l herb.txt").err, Contains("is nothing that plants are compared with"));
     CHECK_THAT(place.run("fit herb.l none.svg").err, Contains("none.svg"));
     place.write("bare.l", "lsystem: 1\nderivation length: 1\naxiom: F(1)\nendlsystem\n");
     CHECK_THAT(place.run("fit bare.l herb.svg").err, Contains("has no settings"));
+}
+
+TEST_CASE("fit by simulation tells ranges, goes on where it stopped, and is divided among processes", "[app]") {
+    const Workplace place;
+    place.write("herb.l", herb);
+    place.write("herb.csv", "height,length,axis_angle.1\n0.55,1.54,41\n0.6,1.68,40\n");
+    const std::string fit = "fit herb.l herb.csv --parameter ANGLE=10:80 --parameter RATIO=0.3:1.2 --simulations 600";
+    const Outcome commands = place.run(fit + " --output parts --list 2");
+    REQUIRE(commands.code == 0);
+    CHECK_THAT(commands.out, Contains("--part 1/2 --method abc") && Contains("--part 2/2 --method abc"));
+    REQUIRE(place.run(fit + " --method abc --output parts --part 2/2").code == 0);
+    CHECK_FALSE(fs::exists(place.path() / "parts/posterior.csv"));
+    const Outcome rest = place.run(fit + " --method abc --output parts --json");
+    INFO(rest.err);
+    REQUIRE(rest.code == 0);
+    const json found = json::parse(rest.out);
+    CHECK(found["parameters"]["ANGLE"]["value"] == Approx(40.5).margin(2));
+    CHECK_THAT(found["command"].get<std::string>(), Contains("espalier run herb.l --define ANGLE="));
+    REQUIRE(place.run(fit + " --method abc --output whole").code == 0);
+    CHECK(text_of(place.path() / "whole/posterior.csv") == text_of(place.path() / "parts/posterior.csv"));
+    CHECK(text_of(place.path() / "whole/fit.png").substr(1, 3) == "PNG");
+    const Outcome other =
+        place.run("fit herb.l herb.csv --parameter ANGLE=10:80 --method abc --simulations 600 --output whole");
+    CHECK(other.code == 1);
+    CHECK_THAT(other.err, Contains("holds the simulations of another fit"));
+    CHECK_THAT(place.run("fit herb.l herb.csv --parameter SIDE --method abc").err, Contains("SIDE=LOW:HIGH"));
+}
+
+TEST_CASE("a scene says what is fitted to what", "[app]") {
+    const Workplace place;
+    place.write("herb.l", herb);
+    place.write("course.csv", "step,length\n2,0.9\n4,1.3\n");
+    place.write("herb.toml",
+                "[[plant]]\nmodel = \"herb.l\"\n[fit]\ntargets = [\"course.csv\"]\n[fit.parameters]\n"
+                "\"plant.0.define.RATIO\" = \"0.3:1.2\"\n");
+    const Outcome outcome = place.run("fit herb.toml --json");
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(json::parse(outcome.out)["parameters"]["plant.0.define.RATIO"]["value"] > 0.3);
+    CHECK(place.run("run herb.toml --output out").code == 0);
 }

@@ -17,6 +17,7 @@ class Espalier < Formula
   depends_on "fmt"
   depends_on "libpng"
   depends_on "lz4"
+  depends_on "nlopt"
   depends_on "openvdb"
   depends_on "qhull"
   depends_on "tbb"

@@ -14,6 +14,7 @@
   libpng,
   lz4,
   nlohmann_json,
+  nlopt,
   openvdb,
   qhull,
   tbb,
@@ -46,6 +47,7 @@ stdenv.mkDerivation (finalAttrs: {
     libpng
     lz4
     nlohmann_json
+    nlopt
     openvdb
     qhull
     tbb

@@ -144,13 +144,13 @@ void read_timeline(const Settings& table, Scene& scene) {
 }
 
 void reject_unknown_tables(const Settings& root) {
-    const std::vector<std::string> known{"simulation", "plant", "environment", "timeline", "keyframes"};
+    const std::vector<std::string> known{"simulation", "plant", "environment", "timeline", "keyframes", "fit"};
     std::vector<Diagnostic> unknown;
     for (const std::string& key : root.keys()) {
         if (std::find(known.begin(), known.end(), key) != known.end()) continue;
         unknown.push_back({Diagnostic::Severity::error, root.place(key),
                            fmt::format("'{}' means nothing here{}; a scene has [simulation], [[plant]], "
-                                       "[environment.<name>], [[keyframes]] and [timeline]",
+                                       "[environment.<name>], [[keyframes]], [timeline] and [fit]",
                                        key, did_you_mean(key, known))});
     }
     if (!unknown.empty()) throw UserError(unknown);
@@ -205,6 +205,7 @@ Scene read(Settings root, Scene scene, const SceneOptions& options) {
     mistakes.attempt([&] { read_simulation(root.table("simulation"), scene); });
     mistakes.attempt([&] { read_environment(root.table("environment"), scene); });
     mistakes.attempt([&] { read_timeline(root.table("timeline"), scene); });
+    root.table("fit").ignore();  // `espalier fit` reads it
     SceneKeyframes keyframes;
     mistakes.attempt([&] { keyframes = read_scene_keyframes(root); });
     if (!keyframes.of_processes.empty()) {
@@ -335,6 +336,10 @@ const char* scene_help() {
   keyframes    none; [step, ...]: these frames; together with `first` or `every`, besides theirs
   animation    none; animation file (.a) that selects the frames, instead of `first`, `every` and `keyframes`
   compression  "lz4", or "zlib"; of .vtp and .vti: zlib takes longer, and makes smaller files that browsers read, too
+
+[fit]          what `espalier fit` finds; a run ignores it
+  targets      none; files that hold what was measured: ["traits.csv"]
+  parameters   none; { "KEY" = "LOW:HIGH" }: keys of this scene, each with what is known of it; see docs/fitting.md
 
 influence = "= 3 * LENGTH": a text that begins with = is an expression in the #defines of a model: of its own plant in
 [[plant]] (positions, grid, turtle, stages), of the first in [simulation], [environment] and [timeline]. Flags may be 0 or 1.

@@ -1,0 +1,70 @@
+// What was measured, and what of grown plants is compared with it. One file per kind of target.
+#pragma once
+
+#include "espalier/base/registry.h"
+
+#include "study/fit/growth.h"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace espalier::study {
+
+/// A number that was measured, and the difference that counts as 1.
+struct Statistic {
+    std::string name;
+    double value = 0;
+    double scale = 1;
+};
+
+class Target {
+public:
+    virtual ~Target() = default;
+
+    /// What is compared; finite numbers, one at least.
+    virtual const std::vector<Statistic>& statistics() const = 0;
+    /// How many worlds stand for what was measured: as many as plants were.
+    virtual std::size_t worlds() const { return 1; }
+    virtual Needs needs() const { return {}; }
+    /// The same statistics of grown worlds; NaN for what they lack. Called from several threads.
+    virtual std::vector<double> of(std::span<const Grown> worlds) const = 0;
+    /// An SVG of what was measured and what has grown, on each other; "": there is none.
+    virtual std::string overlay(const Grown&) const { return ""; }
+    /// What the file holds and is not used, what was guessed.
+    std::vector<std::string> notes;
+};
+
+/// A kind of file that plants are compared with.
+struct TargetType {
+    std::string name;
+    std::string summary;
+    /// Nothing if the file is of another kind. Throws UserError for one of this kind that is wrong.
+    std::function<std::shared_ptr<Target>(const std::filesystem::path&)> read;
+};
+
+/// Throws UserError for a file that is none of the registered kinds.
+std::shared_ptr<Target> read_target(const std::filesystem::path& file);
+
+/// A table of plants, a row each, as statistics: the mean of each column, and of three measured plants or more its
+/// standard deviation where it has one. Their scale is the standard deviation of the mean, or 5 % of the value of a single
+/// plant.
+class RowStatistics {
+public:
+    RowStatistics(const std::vector<std::string>& names, const std::vector<std::vector<double>>& measured);
+
+    const std::vector<Statistic>& measured() const { return statistics_; }
+    /// The same numbers of other plants.
+    std::vector<double> of(const std::vector<std::vector<double>>& rows) const;
+
+private:
+    std::size_t columns_;
+    std::vector<std::size_t> deviating_;  ///< columns whose deviations count
+    std::vector<Statistic> statistics_;
+};
+
+}  // namespace espalier::study
