@@ -1,5 +1,6 @@
 // The program as users start it: what a run without recorders takes beside deriving the last string alone, and the most
 // memory that it holds.
+#include "program_runs.h"
 #include "table.h"
 #include "temporary_folder.h"
 
@@ -8,13 +9,8 @@
 #include <algorithm>
 #include <benchmark/benchmark.h>
 #include <chrono>
-#include <fcntl.h>
 #include <fstream>
-#include <spawn.h>
-#include <stdexcept>
 #include <string>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <vector>
 
 namespace espalier::bench {
@@ -51,25 +47,6 @@ statistics = false
 skeleton = false
 lifespans = false
 )";
-
-/// Runs the program without its output. A fork would copy the page tables of this program, which takes longer than a
-/// small model.
-void run_program(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), ESPALIER_PROGRAM);
-    std::vector<char*> pointers;
-    for (std::string& argument : arguments) pointers.push_back(argument.data());
-    pointers.push_back(nullptr);
-    posix_spawn_file_actions_t silent;
-    posix_spawn_file_actions_init(&silent);
-    posix_spawn_file_actions_addopen(&silent, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    pid_t child = 0;
-    const int failure = posix_spawn(&child, pointers[0], &silent, nullptr, pointers.data(), environ);
-    posix_spawn_file_actions_destroy(&silent);
-    int status = 0;
-    if (failure != 0 || waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-        throw std::runtime_error("the program failed: " + arguments[1]);
-    }
-}
 
 /// By the run's own record, in MB: what the system says of a child counts this program's memory, too.
 double most_memory(const std::string& run) {

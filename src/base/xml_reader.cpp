@@ -8,6 +8,27 @@
 #include <expat.h>
 
 namespace espalier {
+namespace {
+
+// Later versions of Expat have counters of 64 bits, and warn of those that earlier ones have alone.
+template <class Parser>
+int line_of(Parser parser) {
+    if constexpr (requires { XML_GetCurrentLineNumber64(parser); }) {
+        return static_cast<int>(XML_GetCurrentLineNumber64(parser));
+    } else {
+        return static_cast<int>(XML_GetCurrentLineNumber(parser));
+    }
+}
+template <class Parser>
+int column_of(Parser parser) {
+    if constexpr (requires { XML_GetCurrentColumnNumber64(parser); }) {
+        return static_cast<int>(XML_GetCurrentColumnNumber64(parser));
+    } else {
+        return static_cast<int>(XML_GetCurrentColumnNumber(parser));
+    }
+}
+
+}  // namespace
 
 bool XmlAttributes::has(const char* name) const {
     for (const char* const* at = first_; *at; at += 2) {
@@ -85,8 +106,7 @@ void XmlReader::parse(std::string text) {
 }
 
 Place XmlReader::here() const {
-    return {name_, static_cast<int>(XML_GetCurrentLineNumber(parser_.get())),
-            static_cast<int>(XML_GetCurrentColumnNumber(parser_.get())) + 1};
+    return {name_, line_of(parser_.get()), column_of(parser_.get()) + 1};
 }
 
 void XmlReader::fail(const std::string& message) const {
