@@ -241,7 +241,7 @@ with_palette view.png
 cp "$work/trees-measured/analysis.png" "$work/roots-measured/layers.png" "$pictures"
 "$espalier" sweep environments/two-roots.toml --vary environment.water.initial=0.02:0.14:7 --vary simulation.seed=1..6 \
     --statistic length,water.drunk --output "$work/sweep" --plot "$pictures/sweep.png" --quiet
-"$espalier" fit models/roots/lupine.l docs/marks/lupine.rsml --steps 20 --method abc --simulations 1000 --generations 2 \
+"$espalier" fit models/roots/lupine.l docs/marks/lupine.rsml --steps 20 --method abc --generations 2 \
     --parameter RATE_0=0.005:0.05 --parameter SPACING_0=log:0.003:0.03 --parameter LENGTH_1=0.02:0.4 \
     --parameter ANGLE_1=40:90 --output "$work/lupine-fit" --size 1170x1065 --quiet
 cp "$work/lupine-fit/fit.png" "$pictures/fit.png"

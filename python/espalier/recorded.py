@@ -164,11 +164,15 @@ class Run(Drawable):
         return self.organs_at("last")
 
     def organs_at(self, step):
-        """The same of other frames: a step, "first", "last", "all" or "FROM:TO[:EVERY]"."""
+        """The same of other frames: a step, "first", "last", "all" or "FROM:TO[:EVERY]". Names, kinds and symbols are
+        categories, whose texts are kept once."""
         import pandas
 
-        with self._exported("csv", step) as file:
-            return pandas.read_csv(file)
+        reader = self._reader
+        columns = reader.organs(reader.chosen_steps(str(step)))
+        for name in ("name", "kind", "symbol"):
+            columns[name] = pandas.Categorical.from_codes(*columns[name])
+        return pandas.DataFrame(columns, copy=False)
 
     def history(self, identity, plant=0):
         """The life of the organ of that identity; of a plant by its number or name. Raises Error if no frame has it."""

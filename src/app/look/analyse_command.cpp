@@ -9,7 +9,7 @@
 #include "base/number.h"
 #include "base/text.h"
 #include "field_profile.h"
-#include "frame_option.h"
+#include "archive/chosen_frames.h"
 #include "picture/charts/quantity.h"
 #include "picture_options.h"
 

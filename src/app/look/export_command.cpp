@@ -4,7 +4,7 @@
 #include "app/command.h"
 #include "base/json_text.h"
 #include "base/text.h"
-#include "frame_option.h"
+#include "archive/chosen_frames.h"
 #include "mesh_file_options.h"
 
 #include <fmt/format.h>

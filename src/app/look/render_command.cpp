@@ -14,7 +14,7 @@
 #include "base/number.h"
 #include "base/platform.h"
 #include "base/text.h"
-#include "frame_option.h"
+#include "archive/chosen_frames.h"
 #include "light_options.h"
 #include "picture_options.h"
 

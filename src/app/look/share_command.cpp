@@ -4,7 +4,7 @@
 #include "espalier/picture/render.h"
 
 #include "app/command.h"
-#include "app/look/frame_option.h"
+#include "archive/chosen_frames.h"
 #include "base/folder.h"
 #include "studio/server/shared_page.h"
 

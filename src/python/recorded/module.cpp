@@ -3,7 +3,9 @@
 #include "espalier/archive/organ_history.h"
 #include "espalier/base/error.h"
 
+#include "archive/chosen_frames.h"
 #include "python/bindings.h"
+#include "python/recorded/organs.h"
 
 namespace espalier::python {
 
@@ -137,6 +139,12 @@ std::vector<std::pair<int, double>> frames_in(const RecordedRun& run) {
     return frames;
 }
 
+std::vector<int> steps_named(const RecordedRun& run, const std::string& text) {
+    std::vector<int> steps;
+    for (const RecordedFrame* frame : chosen_frames(run, text)) steps.push_back(frame->step);
+    return steps;
+}
+
 void bind_frame(py::module_& module) {
     py::class_<LoadedFrame, std::shared_ptr<LoadedFrame>>(module, "LoadedFrame", "The internodes of a recorded frame.")
         .def("__len__", rows_of)
@@ -168,6 +176,8 @@ PYBIND11_MODULE(_recorded, module) {
         .def("plant", &RecordedRun::plant, py::arg("name"))
         .def("frame", frame_at, py::arg("step"))
         .def("field", field_at, py::arg("name"), py::arg("step"))
+        .def("organs", organs_of, py::arg("steps"))
+        .def("chosen_steps", steps_named, py::arg("text"))
         .def("history", history_of, py::arg("identity"), py::arg("plant"));
     refuse_unmade(module);
 }

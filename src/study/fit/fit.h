@@ -58,7 +58,7 @@ struct LeastSquaresOptions {
 FitResult fit_least_squares(const FitTask& task, const LeastSquaresOptions& options, const FitProgress& progress);
 
 struct AbcFitOptions {
-    std::size_t simulations = 2000;  ///< of each generation
+    std::size_t simulations = 1000;  ///< of each generation
     std::size_t generations = 1;
     double accepted = 0.05;
     std::filesystem::path folder;  ///< where simulations are kept

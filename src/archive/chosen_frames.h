@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier::app {
+namespace espalier::archive {
 
 /// "12", "first", "last", "all", "A:B" or "A:B:C" (from A to B, every C-th step; either end may be left out): the
 /// frames recorded at those steps, of plants or of fields. Throws UserError for text that is none of these, and if no
@@ -19,4 +19,4 @@ void require_frame_option(const std::string& text);
 /// What --step may be, for the help of commands.
 inline constexpr const char* frame_option_help = "which frames: N, first, last, all, or FROM:TO[:EVERY]";
 
-}  // namespace espalier::app
+}  // namespace espalier::archive

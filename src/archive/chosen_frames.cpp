@@ -1,4 +1,4 @@
-#include "frame_option.h"
+#include "archive/chosen_frames.h"
 
 #include "espalier/base/error.h"
 
@@ -9,7 +9,7 @@
 #include <limits>
 #include <optional>
 
-namespace espalier::app {
+namespace espalier::archive {
 namespace {
 
 std::optional<int> whole_number(const std::string& text) {
@@ -72,4 +72,4 @@ std::vector<const RecordedFrame*> chosen_frames(const RecordedRun& run, const st
     return chosen;
 }
 
-}  // namespace espalier::app
+}  // namespace espalier::archive
