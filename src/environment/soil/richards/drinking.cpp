@@ -1,5 +1,5 @@
 // Water that queries take from the soil between its steps, and the soil in checkpoints.
-#include "environment/soil/linear/stock.h"
+#include "base/bytes.h"
 #include "environment/soil/richards/richards.h"
 
 #include <algorithm>
@@ -11,40 +11,24 @@ namespace espalier::environment {
 /// What lies above the wilting point.
 WaterBrick Richards::available() const {
     WaterBrick available(grid_.cells(), 0.0);
-    layout_.for_rows([&](std::size_t row) {
-        const std::size_t begin = grid_.row_begin(row);
-        for (std::size_t c = begin; c < begin + grid_.size().x; ++c) {
-            if (!layout_.free(c)) continue;
-            available[c] = std::max(0.0, content_[c] - layout_.kind(c).at(parameters_.wilting_head).content);
-        }
+    layout_.for_free([&](std::size_t c) {
+        available[c] = std::max(0.0, content_[c] - layout_.kind(c).at(parameters_.wilting_head).content);
     });
     return available;
 }
 
-std::vector<double> Richards::share(std::span<const WaterWish> wishes) {
-    if (wishes.empty()) return {};
+void Richards::drink(const std::function<double(WaterBrick&)>& take) {
     WaterBrick left = available();
     const WaterBrick before = left;
-    ShareResult result = share_water(grid_, wishes, left);
-    layout_.for_rows([&](std::size_t row) {
-        const std::size_t begin = grid_.row_begin(row);
-        for (std::size_t c = begin; c < begin + grid_.size().x; ++c) {
-            if (left[c] == before[c]) continue;
-            content_[c] -= before[c] - left[c];
-            head_[c] = layout_.kind(c).head_at(content_[c], head_[c]);
-        }
+    const double taken = take(left);
+    if (taken == 0) return;
+    layout_.for_free([&](std::size_t c) {
+        if (left[c] == before[c]) return;
+        content_[c] -= before[c] - left[c];
+        head_[c] = layout_.kind(c).head_at(content_[c], head_[c]);
     });
-    balance_.flown.drunk += result.taken * edge_;
+    balance_.flown.drunk += taken * edge_;
     measure();
-    return std::move(result.obtained);
-}
-
-std::vector<double> Richards::lend(std::span<const WaterWish> wishes) const {
-    const WaterBrick stock = available();
-    std::vector<double> obtained;
-    obtained.reserve(wishes.size());
-    for (const WaterWish& wish : wishes) obtained.push_back(obtain_alone(grid_, wish, stock));
-    return obtained;
 }
 
 void Richards::save(std::ostream& out) const {
@@ -54,9 +38,9 @@ void Richards::save(std::ostream& out) const {
     const double numbers[] = {
         day_, next_substep_, last_days_, has_rate_ ? 1.0 : 0.0, smooth_ ? 1.0 : 0.0, static_cast<double>(substeps_)};
     write_doubles(out, numbers);
-    out.write(reinterpret_cast<const char*>(&balance_), sizeof balance_);
-    out.write(reinterpret_cast<const char*>(&rates_), sizeof rates_);
-    out.write(reinterpret_cast<const char*>(&forcing_), sizeof forcing_);
+    put(out, balance_);
+    put(out, rates_);
+    put(out, forcing_);
     movement_.save(out);
 }
 
@@ -70,9 +54,9 @@ void Richards::restore(std::istream& in) {
     has_rate_ = numbers[3] != 0;
     smooth_ = numbers[4] != 0;
     substeps_ = static_cast<std::size_t>(numbers[5]);
-    in.read(reinterpret_cast<char*>(&balance_), sizeof balance_);
-    in.read(reinterpret_cast<char*>(&rates_), sizeof rates_);
-    in.read(reinterpret_cast<char*>(&forcing_), sizeof forcing_);
+    balance_ = get<SoilBalance>(in);
+    rates_ = get<SoilRates>(in);
+    forcing_ = get<SoilForcing>(in);
     movement_.restore(in);
     measure();
 }

@@ -1,6 +1,6 @@
 #include "environment/soil/richards/movement.h"
 
-#include "environment/soil/linear/stock.h"
+#include "base/bytes.h"
 
 namespace espalier::environment {
 

@@ -135,12 +135,12 @@ void Richards::measure() {
 double Richards::longest_substep(double end, std::span<SoilSink* const> sinks) const {
     double longest = std::min(parameters_.max_substep, end - day_);
     const SoilSurface& surface = parameters_.surface;
-    for (const SoilSeries* series : {&surface.rain, &surface.evaporation, &surface.flux, &surface.head,
+    for (const TimeSeries* series : {&surface.rain, &surface.evaporation, &surface.flux, &surface.head,
                                      &parameters_.floor.flux, &parameters_.floor.head}) {
         longest = std::min(longest, series->next_change(day_) - day_);
     }
     for (const SoilSide& side : parameters_.sides) longest = std::min(longest, side.value.next_change(day_) - day_);
-    for (const SoilSeries& head : parameters_.measured.heads) {
+    for (const TimeSeries& head : parameters_.measured.heads) {
         longest = std::min(longest, head.next_change(day_) - day_);
     }
     for (const SoilSink* sink : sinks) longest = std::min(longest, sink->longest_substep(day_));

@@ -1,13 +1,13 @@
 // Richards' equation on a grid of voxels.
 #pragma once
 
-#include "environment/soil/grid/uptake.h"
 #include "environment/soil/richards/cells.h"
 #include "environment/soil/richards/linear_system.h"
 #include "environment/soil/richards/parameters.h"
 #include "environment/soil/richards/sink.h"
 #include "environment/soil/richards/surface.h"
 
+#include <functional>
 #include <iosfwd>
 #include <span>
 #include <vector>
@@ -70,9 +70,8 @@ public:
     /// Tells `follower` of every substep.
     void attach(SoilFollower& follower);
 
-    /// Takes what the wishes obtain together, in content times voxels, down to the wilting point.
-    std::vector<double> share(std::span<const WaterWish> wishes);
-    std::vector<double> lend(std::span<const WaterWish> wishes) const;
+    /// Lets `take` take from what lies above the wilting point; it returns how much, in content times voxels.
+    void drink(const std::function<double(WaterBrick&)>& take);
 
     void save(std::ostream& out) const;
     void restore(std::istream& in);
