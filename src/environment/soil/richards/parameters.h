@@ -40,6 +40,8 @@ struct MeasuredHeads {
 struct SoilSide {
     enum class Kind { closed, head, table } kind = Kind::closed;
     TimeSeries value;
+
+    bool is_open() const { return kind != Kind::closed; }
 };
 
 struct SoilLayer {
