@@ -20,6 +20,7 @@ const std::map<std::string, std::vector<Room>> stations{
     {"geometry",
      {
          {"rays", ""},
+         {"sky", ""},
          {".", ""},
          {"drawn", "."},
          {"grids", "."},

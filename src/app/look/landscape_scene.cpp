@@ -3,7 +3,7 @@
 #include "archive/meshes/texture_file.h"
 #include "landscape_species.h"
 #include "language/parser/vector_field.h"
-#include "picture/stage/daylight.h"
+#include "picture/stage/sky_visibility.h"
 #include "picture_options.h"
 
 #include <fmt/format.h>

@@ -70,4 +70,36 @@ private:
     bool has_side_heads_ = false;
 };
 
+// Here, because it is asked for every voxel.
+inline SoilFluxes::Outflow SoilFluxes::out_of(const NeighbourRows& at, int x, std::size_t column) const {
+    const std::size_t c = at.own + x, below = at.below + x, back = at.back + x;
+    const auto& [fx, fy, fz] = faces_;
+    Outflow out{fx.flux[c] - fx.flux[c - 1], fx.by_own[c] - fx.by_next[c - 1]};
+    const auto leaves = [&](double flux, double by_head) {
+        out.flux += flux;
+        out.by_head += by_head;
+    };
+    const auto enters = [&](double flux, double by_head) {
+        out.flux -= flux;
+        out.by_head -= by_head;
+    };
+    if (at.has_above) {
+        leaves(fy.flux[c], fy.by_own[c]);
+    } else {
+        enters(surface_[column + x].into.flux, surface_[column + x].into.by_second);
+    }
+    if (below != c) {
+        enters(fy.flux[below], fy.by_next[below]);
+    } else {
+        enters(floor_[column + x].flux, floor_[column + x].by_first);
+    }
+    if (at.has_front) leaves(fz.flux[c], fz.by_own[c]);
+    if (back != c) enters(fz.flux[back], fz.by_next[back]);
+    if (has_side_heads_) {
+        const SoilFlux into = through_sides(c);
+        enters(into.flux, into.by_second);
+    }
+    return out;
+}
+
 }  // namespace espalier::environment
