@@ -1,10 +1,10 @@
-// What pictures are made of, without drawing any: cameras, daylight, colours, lengths.
+// What pictures are made of, without drawing any: cameras, visibility, colours, lengths.
 #include "catch.h"
 #include "picture/palette.h"
 #include "picture/stage/camera_fit.h"
 #include "picture/stage/colouring.h"
-#include "picture/stage/daylight.h"
 #include "picture/stage/legend.h"
+#include "picture/stage/sky_visibility.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -101,10 +101,10 @@ TEST_CASE("camera: an outline of few points stands for all", "[pictures]") {
     CHECK(halves[0].points() == outline.points());
 }
 
-TEST_CASE("daylight: under a roof it is dark, on it and far from it light", "[pictures]") {
+TEST_CASE("visibility: under a roof it is dark, on it and far from it light", "[pictures]") {
     const Square roof(10, 1);
     const std::vector<Occluder> occluders{roof.occluder()};
-    const Daylight lit(occluders, glm::vec3(0, 1, 0));
+    const SkyVisibility lit(occluders, glm::vec3(0, 1, 0));
     const glm::vec3 up(0, 1, 0);
     CHECK(lit.sky({0, 0, 0}, up, false) < 0.1);
     CHECK(lit.sun({0, 0, 0}, 1) == 0);
@@ -116,10 +116,10 @@ TEST_CASE("daylight: under a roof it is dark, on it and far from it light", "[pi
     CHECK(lit.sky({10, 0, 0}, up, false) == Approx(0.5).margin(0.12));
 }
 
-TEST_CASE("daylight: a slanting sun throws the shadow sideways", "[pictures]") {
+TEST_CASE("visibility: a slanting sun throws the shadow sideways", "[pictures]") {
     const Square roof(1, 2);
     const std::vector<Occluder> occluders{roof.occluder()};
-    const Daylight lit(occluders, direction_at(90, 45));
+    const SkyVisibility lit(occluders, direction_at(90, 45));
     CHECK(lit.sun({-2, 0, 0}, 1) == 0);
     CHECK(lit.sun({0, 0, 0}, 1) == 1);
     CHECK(lit.sun({2, 0, 0}, 1) == 1);
@@ -128,8 +128,8 @@ TEST_CASE("daylight: a slanting sun throws the shadow sideways", "[pictures]") {
     CHECK(edge < 0.8);
 }
 
-TEST_CASE("daylight: nothing casts no shadow", "[pictures]") {
-    const Daylight lit({}, glm::vec3(0, 1, 0));
+TEST_CASE("visibility: nothing casts no shadow", "[pictures]") {
+    const SkyVisibility lit({}, glm::vec3(0, 1, 0));
     CHECK(lit.sky({0, 0, 0}, {0, 1, 0}, false) == 1);
     CHECK(lit.sun({5, 0, 0}, 2) == 1);
 }

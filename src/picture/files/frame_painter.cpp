@@ -2,8 +2,8 @@
 
 #include "espalier/base/error.h"
 
-#include "picture/stage/daylight.h"
 #include "picture/stage/legend.h"
+#include "picture/stage/sky_visibility.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

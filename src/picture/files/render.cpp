@@ -7,8 +7,8 @@
 #include "picture/files/film.h"
 #include "picture/files/frame_painter.h"
 #include "picture/stage/colouring.h"
-#include "picture/stage/daylight.h"
 #include "picture/stage/legend.h"
+#include "picture/stage/sky_visibility.h"
 #include "picture/stage/stage_survey.h"
 
 #include <fmt/format.h>
@@ -93,7 +93,7 @@ private:
         unfolding_.reset();
         if (!pieces_ || pieces_->step != frame.step) take_pieces(frame);
         for (const RecordedFrame& piece : pieces_->frames) {
-            stage.show_piece(piece, pieces_->whole, pieces_->daylight ? &*pieces_->daylight : nullptr);
+            stage.show_piece(piece, pieces_->whole, pieces_->visibility ? &*pieces_->visibility : nullptr);
             stage.place_camera(place, job_.follow);
             painter_.add();
         }
@@ -106,12 +106,12 @@ private:
         const PictureStyle& style = stage.style();
         const Box& box = pieces_->whole.box;
         if (!style.shading || stage.is_flat() || box.empty()) return;
-        Daylight daylight(box.lower, box.upper, direction_at(style.sun_azimuth, style.sun_elevation));
+        SkyVisibility visibility(box.lower, box.upper, direction_at(style.sun_azimuth, style.sun_elevation));
         for (const RecordedFrame& piece : pieces_->frames) {
             stage.show_piece(piece, pieces_->whole, nullptr);
-            stage.add_occluders(daylight);
+            stage.add_occluders(visibility);
         }
-        pieces_->daylight = std::move(daylight);
+        pieces_->visibility = std::move(visibility);
     }
 
     void show_between(std::size_t frame, double share) {
@@ -165,7 +165,7 @@ private:
         int step;
         std::vector<RecordedFrame> frames;
         StageSurvey whole;
-        std::optional<Daylight> daylight;  ///< none: no shading
+        std::optional<SkyVisibility> visibility;  ///< none: no shading
     };
 
     const RenderJob& job_;

@@ -26,18 +26,18 @@ constexpr Perez perez[3][5] = {
     {{-0.0167, -0.2608}, {-0.0950, 0.0092}, {-0.0079, 0.2102}, {-0.0441, -1.6537}, {-0.0109, 0.0529}},
     {{0.1787, -1.4630}, {-0.3554, 0.4275}, {-0.0227, 5.3251}, {0.1206, -2.5771}, {-0.0670, 0.3703}}};
 
-/// x, y and Y of the sky where the zenith angle has the cosine `rise`, `apart` radians from the sun, up to a factor.
-glm::dvec3 perez_at(double turbidity, double rise, double apart) {
-    constexpr double least_rise = 0.1;  // nearer to the horizon the model is purple
-    glm::dvec3 values;
-    for (int k = 0; k < 3; ++k) {
-        std::array<double, 5> c;
-        for (std::size_t i = 0; i < 5; ++i) c[i] = perez[k][i].per_turbidity * turbidity + perez[k][i].fixed;
-        const double cosine = std::cos(apart);
-        values[k] = (1 + c[0] * std::exp(c[1] / std::max(rise, least_rise))) *
-                    (1 + c[2] * std::exp(c[3] * apart) + c[4] * cosine * cosine);
+std::array<SkyRadiance, 3> clear_sky(double turbidity, const glm::vec3& towards_sun) {
+    std::array<SkyRadiance, 3> sky;
+    for (std::size_t k = 0; k < 3; ++k) {
+        std::array<double, 5> a_to_e;
+        for (std::size_t i = 0; i < 5; ++i) a_to_e[i] = perez[k][i].per_turbidity * turbidity + perez[k][i].fixed;
+        sky[k] = SkyRadiance::perez(a_to_e, glm::dvec3(towards_sun));
     }
-    return values;
+    return sky;
+}
+
+glm::dvec3 values_at(const std::array<SkyRadiance, 3>& sky, double rise, double from_sun) {
+    return {sky[0].at(rise, from_sun), sky[1].at(rise, from_sun), sky[2].at(rise, from_sun)};
 }
 
 /// x, y and Y (kcd/m2) at the zenith: appendix A.2 again.
@@ -103,8 +103,8 @@ SkyLight::SkyLight(const PictureSky& sky, const glm::vec3& towards_sun)
       turbidity_(sky.turbidity),
       sun_angle_(std::acos(std::min(1.0, static_cast<double>(towards_sun_.y)))) {
     if (kind_ == PictureSky::Kind::clear) {
-        zenith_ = zenith_at(turbidity_, sun_angle_);
-        at_zenith_ = perez_at(turbidity_, 1, sun_angle_);
+        clear_ = clear_sky(turbidity_, towards_sun_);
+        scale_ = zenith_at(turbidity_, sun_angle_) / values_at(clear_, 1, sun_angle_);
         sun_ = sun_through_air(turbidity_, sun_angle_);
     }
     measure_sky();
@@ -116,15 +116,17 @@ SkyLight::SkyLight(const PictureSky& sky, const glm::vec3& towards_sun)
 }
 
 glm::vec3 SkyLight::clear(const glm::vec3& towards) const {
-    const double apart = std::acos(std::clamp(static_cast<double>(glm::dot(towards, towards_sun_)), -1.0, 1.0));
-    return linear_of_xyy(zenith_ * perez_at(turbidity_, towards.y, apart) / at_zenith_);
+    constexpr double least_rise = 0.1;  // nearer to the horizon the model is purple
+    const double from_sun = std::acos(std::clamp(static_cast<double>(glm::dot(towards, towards_sun_)), -1.0, 1.0));
+    return linear_of_xyy(scale_ * values_at(clear_, std::max<double>(towards.y, least_rise), from_sun));
 }
 
-// Overcast: Moon & Spencer 1942. The colours of clouds are nearly white.
+// The colours of clouds are nearly white.
 glm::vec3 SkyLight::sky(const glm::vec3& towards) const {
     if (kind_ == PictureSky::Kind::uniform) return glm::vec3(1);
     if (kind_ == PictureSky::Kind::overcast) {
-        return glm::vec3(0.97F, 1, 1.04F) * (1 + 2 * std::max(towards.y, 0.0F));
+        const double radiance = SkyRadiance::overcast()(glm::dvec3(0, std::max(towards.y, 0.0F), 0));
+        return glm::vec3(0.97F, 1, 1.04F) * static_cast<float>(radiance);
     }
     return clear(towards);
 }

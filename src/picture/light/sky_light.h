@@ -3,7 +3,11 @@
 
 #include "espalier/picture/picture_style.h"
 
+#include "geometry/sky/radiance.h"
+
 #include <glm/vec3.hpp>
+
+#include <array>
 
 namespace espalier::picture {
 
@@ -44,7 +48,8 @@ private:
     PictureSky::Kind kind_;
     glm::vec3 towards_sun_;
     double turbidity_, sun_angle_;
-    glm::dvec3 zenith_{0}, at_zenith_{1};  ///< xyY at the zenith; Perez' function there
+    std::array<SkyRadiance, 3> clear_;  ///< x, y and Y of a clear sky, up to `scale_`
+    glm::dvec3 scale_{0};
     glm::vec3 sun_{0}, sky_on_ground_{0};
 };
 

@@ -1,5 +1,7 @@
 #include "picture/stage/camera_fit.h"
 
+#include "geometry/sky/radiance.h"
+
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <glm/vec2.hpp>
@@ -15,15 +17,12 @@ namespace {
 constexpr std::size_t direction_count = 96;
 constexpr int turns_tried = 24;
 
-// Spread evenly over the sphere (Vogel 1979).
 const std::vector<glm::dvec3>& directions() {
     static const std::vector<glm::dvec3> all = [] {
         std::vector<glm::dvec3> result;
         for (std::size_t i = 0; i < direction_count; ++i) {
             const double height = 1 - (2 * static_cast<double>(i) + 1) / direction_count;
-            const double angle = static_cast<double>(i) * std::numbers::pi * (3 - std::sqrt(5.0));
-            const double across = std::sqrt(1 - height * height);
-            result.emplace_back(across * std::cos(angle), height, across * std::sin(angle));
+            result.push_back(sunflower_direction(i, height));
         }
         return result;
     }();

@@ -30,7 +30,7 @@ float brightness(float sky, float sun) {
     return 0.36f + 0.36f * sky + 0.28f * sun;
 }
 
-vtkSmartPointer<vtkActor> ground_actor(const glm::dvec3& middle, double radius, const Daylight* daylight,
+vtkSmartPointer<vtkActor> ground_actor(const glm::dvec3& middle, double radius, const SkyVisibility* visibility,
                                        const PictureBackground& background, float opacity) {
     vtkNew<vtkImageData> image;
     image->SetDimensions(texels, texels, 1);
@@ -42,7 +42,8 @@ vtkSmartPointer<vtkActor> ground_actor(const glm::dvec3& middle, double radius, 
             const double x = (column + 0.5) / texels * 2 - 1, z = (row + 0.5) / texels * 2 - 1;
             const glm::vec3 point(middle.x + radius * x, 0, middle.z + radius * z);
             const float light =
-                daylight ? brightness(daylight->sky(point, glm::vec3(0, 1, 0), false), daylight->sun(point, 2)) : 1;
+                visibility ? brightness(visibility->sky(point, glm::vec3(0, 1, 0), false), visibility->sun(point, 2))
+                           : 1;
             unsigned char* pixel = pixels + 4 * (static_cast<std::ptrdiff_t>(row) * texels + column);
             for (const float part : soil) *pixel++ = static_cast<unsigned char>(std::lround(light * part));
             *pixel =

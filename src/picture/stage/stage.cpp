@@ -7,11 +7,11 @@
 #include "picture/light/colour_space.h"
 #include "picture/stage/background_scene.h"
 #include "picture/stage/colouring.h"
-#include "picture/stage/daylight.h"
 #include "picture/stage/field_props.h"
 #include "picture/stage/ground.h"
 #include "picture/stage/legend.h"
 #include "picture/stage/lit_stage.h"
+#include "picture/stage/sky_visibility.h"
 #include "picture/stage/stage_light.h"
 #include "picture/stage/stage_mesh.h"
 #include "picture/stage/stage_survey.h"
@@ -121,7 +121,7 @@ public:
     /// What a part of a frame cannot know of all of it.
     struct Whole {
         const StageSurvey& survey;
-        const Daylight* daylight;  ///< null: no shading
+        const SkyVisibility* visibility;  ///< null: no shading
     };
 
     void show(const RecordedFrame& frame, std::shared_ptr<const FrameGeometry> geometry, const Whole* whole = nullptr) {
@@ -279,9 +279,9 @@ private:
     void add_lights_and_colours(const Whole* whole) {
         const glm::vec3 sun = direction_at(style_.sun_azimuth, style_.sun_elevation);
         set_lights(*renderer_, sun);
-        std::optional<Daylight> own;
+        std::optional<SkyVisibility> own;
         if (style_.shading && !is_flat() && !whole) own.emplace(occluders(), sun);
-        const Daylight* const daylight = whole ? whole->daylight : own ? &*own : nullptr;
+        const SkyVisibility* const visibility = whole ? whole->visibility : own ? &*own : nullptr;
         const std::vector<Rgb> colours = colours_of_points();
         // Colours that mean a number are only tinged, or they could not be read.
         const float shade = colouring_->is_natural() ? 1.0F : 0.5F;
@@ -290,12 +290,12 @@ private:
             const auto texture = texture_worn(part.mesh);
             const std::string& file = texture ? geometry_->texture_files[part.mesh.texture] : none;
             dress_actor(*part.actor, part.mesh,
-                        {texture && has_own_colours(file) ? white : colours, daylight, shade, !is_flat()});
+                        {texture && has_own_colours(file) ? white : colours, visibility, shade, !is_flat()});
             part.actor->SetTexture(texture);
             if (texture && !is_flat()) add_relief(*part.actor, run_->folder(), file);
             renderer_->AddActor(part.actor);
         }
-        if (style_.ground && !is_flat()) add_ground(daylight);
+        if (style_.ground && !is_flat()) add_ground(visibility);
     }
 
     /// Plants in one colour without light, so that they hide what of fields lies behind them.
@@ -346,12 +346,12 @@ private:
         return colouring_->is_natural() && is_flat() && geometry_->of_points.rgb.empty() && !here_.has_faces;
     }
 
-    void add_ground(const Daylight* daylight) {
+    void add_ground(const SkyVisibility* visibility) {
         const auto disc = ground_disc();
         if (!disc) return;
         const StageSurvey& seen = survey_ && !survey_->box.empty() ? *survey_ : here_;
         const float opacity = seen.has_roots_to_see() ? clear_ground : 1;
-        others_.push_back(ground_actor(disc->middle, disc->radius, daylight, style_.background, opacity));
+        others_.push_back(ground_actor(disc->middle, disc->radius, visibility, style_.background, opacity));
         renderer_->AddViewProp(others_.back());
     }
 
@@ -471,13 +471,13 @@ void Stage::show(const RecordedFrame& frame, std::shared_ptr<const FrameGeometry
     body_->show(frame, std::move(geometry));
 }
 
-void Stage::show_piece(const RecordedFrame& piece, const StageSurvey& whole, const Daylight* daylight) {
-    const Body::Whole all{whole, daylight};
+void Stage::show_piece(const RecordedFrame& piece, const StageSurvey& whole, const SkyVisibility* visibility) {
+    const Body::Whole all{whole, visibility};
     body_->show(piece, body_->load(piece), &all);
 }
 
-void Stage::add_occluders(Daylight& daylight) const {
-    daylight.add(body_->occluders());
+void Stage::add_occluders(SkyVisibility& visibility) const {
+    visibility.add(body_->occluders());
 }
 
 const RecordedFrame* Stage::shown() const {

@@ -24,7 +24,7 @@ class vtkRenderer;
 
 namespace espalier::picture {
 
-class Daylight;
+class SkyVisibility;
 struct Legend;
 
 /// What frames have in common, so that neither camera nor colours jump between them.
@@ -80,11 +80,11 @@ public:
     void show(const RecordedFrame& frame);
     /// The same with plants that were read already, by another thread for instance.
     void show(const RecordedFrame& frame, std::shared_ptr<const FrameGeometry> geometry);
-    /// One file of a frame that has several. `whole`: the survey of all of them; `daylight`: what reaches its plants
+    /// One file of a frame that has several. `whole`: the survey of all of them; `visibility`: what reaches its plants
     /// past those of all, null: no shading.
-    void show_piece(const RecordedFrame& piece, const StageSurvey& whole, const Daylight* daylight);
+    void show_piece(const RecordedFrame& piece, const StageSurvey& whole, const SkyVisibility* visibility);
     /// What is shown hides light from other pieces.
-    void add_occluders(Daylight& daylight) const;
+    void add_occluders(SkyVisibility& visibility) const;
     const RecordedFrame* shown() const;
     /// What is shown; empty before `show`.
     const FrameGeometry& geometry() const;

@@ -34,8 +34,8 @@ vtkSmartPointer<vtkUnsignedCharArray> shaded_colours(const StageMesh& mesh, cons
     unsigned char* const to = rgb->GetPointer(0);
     tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
         float light = 1;
-        if (const Daylight* daylight = dress.daylight) {
-            light = brightness(daylight->sky(points[i], normals[i], !mesh.is_of_axes), daylight->sun(points[i], 1));
+        if (const SkyVisibility* visibility = dress.visibility) {
+            light = brightness(visibility->sky(points[i], normals[i], !mesh.is_of_axes), visibility->sun(points[i], 1));
             light = 1 - dress.shade * (1 - light);
         }
         const Rgb& colour = dress.colours[mesh.row_of_point[i]];

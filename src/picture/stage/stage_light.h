@@ -2,7 +2,7 @@
 #pragma once
 
 #include "picture/palette.h"
-#include "picture/stage/daylight.h"
+#include "picture/stage/sky_visibility.h"
 #include "picture/stage/stage_mesh.h"
 
 #include <glm/vec3.hpp>
@@ -18,7 +18,7 @@ void set_lights(vtkRenderer& renderer, const glm::vec3& sun);
 
 struct MeshDress {
     const std::vector<Rgb>& colours;  ///< colours of the frame's points
-    const Daylight* daylight;         ///< null: no shadows
+    const SkyVisibility* visibility;  ///< null: no shadows
     float shade;                      ///< how much shadows darken: 1 as much as they do, 0 not at all
     bool lit;
 };

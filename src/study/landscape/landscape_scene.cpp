@@ -1,10 +1,10 @@
 #include "study/landscape/landscape_scene.h"
 
 #include "archive/meshes/texture_file.h"
-#include "study/landscape/landscape_species.h"
 #include "language/parser/vector_field.h"
 #include "picture/palette.h"
-#include "picture/stage/daylight.h"
+#include "picture/stage/sky_visibility.h"
+#include "study/landscape/landscape_species.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>

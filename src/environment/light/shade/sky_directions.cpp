@@ -2,11 +2,12 @@
 
 #include "espalier/base/math.h"
 
+#include "geometry/sky/radiance.h"
+
 #include <glm/geometric.hpp>
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace espalier::environment {
 namespace {
@@ -63,12 +64,10 @@ std::vector<SkyDirection> uniform_sky(std::int64_t samples, double lower_to_uppe
 }
 
 std::vector<glm::dvec3> sky_hemisphere(std::int64_t samples) {
-    const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
     std::vector<glm::dvec3> directions;
     for (std::int64_t i = 0; i < samples; ++i) {
-        const double y = (static_cast<double>(i) + 0.5) / static_cast<double>(samples);
-        const double across = std::sqrt(1 - y * y), turn = golden_angle * static_cast<double>(i);
-        directions.emplace_back(across * math::cos(turn), y, across * math::sin(turn));
+        const double height = (static_cast<double>(i) + 0.5) / static_cast<double>(samples);
+        directions.push_back(sunflower_direction(static_cast<std::size_t>(i), height));
     }
     return directions;
 }

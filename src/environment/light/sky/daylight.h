@@ -6,8 +6,8 @@
 #include "environment/given/weather/weather.h"
 #include "environment/light/sky/bands.h"
 #include "environment/light/sky/light_series.h"
-#include "environment/light/sky/radiance.h"
 #include "environment/light/sun/sun.h"
+#include "geometry/sky/radiance.h"
 
 #include <algorithm>
 #include <map>

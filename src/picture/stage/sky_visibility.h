@@ -43,12 +43,12 @@ struct Occluder {
 /// The unit vector to a light at so many degrees round the vertical (0: from +z) and above the horizon.
 glm::vec3 direction_at(double azimuth, double elevation);
 
-class Daylight {
+class SkyVisibility {
 public:
     /// `sun`: the unit vector to it. Equal triangles give equal light, with any number of threads.
-    Daylight(std::span<const Occluder> occluders, const glm::vec3& sun);
+    SkyVisibility(std::span<const Occluder> occluders, const glm::vec3& sun);
     /// Nothing is there yet of some millions of triangles between these corners.
-    Daylight(const glm::vec3& lower, const glm::vec3& upper, const glm::vec3& sun);
+    SkyVisibility(const glm::vec3& lower, const glm::vec3& upper, const glm::vec3& sun);
     void add(std::span<const Occluder> occluders);
 
     /// Returns the free part of the sky above a surface, 0 to 1. What is lit from both sides takes the light of both.
@@ -58,7 +58,7 @@ public:
     float sun(const glm::vec3& point, int softness) const;
 
 private:
-    Daylight(const glm::vec3& lower, const glm::vec3& upper, const glm::vec3& sun, std::size_t directions);
+    SkyVisibility(const glm::vec3& lower, const glm::vec3& upper, const glm::vec3& sun, std::size_t directions);
 
     std::vector<DepthMap> sky_;
     std::vector<DepthMap> sun_;  ///< one

@@ -1,4 +1,6 @@
-#include "picture/stage/daylight.h"
+#include "picture/stage/sky_visibility.h"
+
+#include "geometry/sky/radiance.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -18,12 +20,9 @@ constexpr int sky_texels = 384, sun_texels = 1536;
 constexpr std::size_t budget = 30'000'000;
 constexpr std::size_t fewest_directions = 12, most_directions = 32;
 
-/// Spread evenly over the upper half of the sphere (Vogel 1979), from the zenith down.
+/// Spread evenly over the upper half of the sphere, from the zenith down.
 glm::vec3 sky_direction(std::size_t i, std::size_t count) {
-    const double height = 1 - (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-    const double angle = static_cast<double>(i) * std::numbers::pi * (3 - std::sqrt(5.0));
-    const double across = std::sqrt(1 - height * height);
-    return glm::vec3(across * std::cos(angle), height, across * std::sin(angle));
+    return glm::vec3(sunflower_direction(i, 1 - (static_cast<double>(i) + 0.5) / static_cast<double>(count)));
 }
 
 void fill(DepthMap& map, std::span<const Occluder> occluders) {
@@ -123,27 +122,28 @@ glm::vec3 direction_at(double azimuth, double elevation) {
     return glm::vec3(std::cos(above) * std::sin(round), std::sin(above), std::cos(above) * std::cos(round));
 }
 
-Daylight::Daylight(const glm::vec3& lower, const glm::vec3& upper, const glm::vec3& sun, std::size_t directions) {
+SkyVisibility::SkyVisibility(const glm::vec3& lower, const glm::vec3& upper, const glm::vec3& sun,
+                             std::size_t directions) {
     for (std::size_t i = 0; i < directions; ++i) {
         sky_.emplace_back(sky_direction(i, directions), sky_texels, lower, upper);
     }
     sun_.emplace_back(sun, sun_texels, lower, upper);
 }
 
-Daylight::Daylight(const glm::vec3& lower, const glm::vec3& upper, const glm::vec3& sun)
-    : Daylight(lower, upper, sun, fewest_directions) {}
+SkyVisibility::SkyVisibility(const glm::vec3& lower, const glm::vec3& upper, const glm::vec3& sun)
+    : SkyVisibility(lower, upper, sun, fewest_directions) {}
 
-Daylight::Daylight(std::span<const Occluder> occluders, const glm::vec3& sun)
-    : Daylight(corners_of(occluders)[0], corners_of(occluders)[1], sun, directions_for(occluders)) {
+SkyVisibility::SkyVisibility(std::span<const Occluder> occluders, const glm::vec3& sun)
+    : SkyVisibility(corners_of(occluders)[0], corners_of(occluders)[1], sun, directions_for(occluders)) {
     add(occluders);
 }
 
-void Daylight::add(std::span<const Occluder> occluders) {
+void SkyVisibility::add(std::span<const Occluder> occluders) {
     tbb::parallel_for(std::size_t{0}, sky_.size() + 1,
                       [&](std::size_t i) { fill(i < sky_.size() ? sky_[i] : sun_[0], occluders); });
 }
 
-float Daylight::sky(const glm::vec3& point, const glm::vec3& normal, bool both_sides) const {
+float SkyVisibility::sky(const glm::vec3& point, const glm::vec3& normal, bool both_sides) const {
     float reached = 0, all = 0;
     for (const DepthMap& map : sky_) {
         const float across = glm::dot(normal, map.towards());
@@ -157,7 +157,7 @@ float Daylight::sky(const glm::vec3& point, const glm::vec3& normal, bool both_s
     return reached / all;
 }
 
-float Daylight::sun(const glm::vec3& point, int softness) const {
+float SkyVisibility::sun(const glm::vec3& point, int softness) const {
     const DepthMap& map = sun_.front();
     return map.open(point + 3 * map.texel() * map.towards(), softness);
 }

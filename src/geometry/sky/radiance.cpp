@@ -1,4 +1,4 @@
-#include "environment/light/sky/radiance.h"
+#include "geometry/sky/radiance.h"
 
 #include "espalier/base/math.h"
 
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace espalier::environment {
+namespace espalier::geometry {
 namespace {
 
 using std::numbers::pi;
@@ -71,11 +71,17 @@ SkyRadiance SkyRadiance::overcast() {
 }
 
 SkyRadiance SkyRadiance::cie(int type, const glm::dvec3& sun) {
-    const auto& [a, b, c, d, e] = cie_skies.at(static_cast<std::size_t>(type - 1));
+    SkyRadiance sky = perez(cie_skies.at(static_cast<std::size_t>(type - 1)), sun);
+    sky.indicatrix_.across = math::exp(sky.indicatrix_.d * pi / 2);
+    return sky;
+}
+
+SkyRadiance SkyRadiance::perez(const std::array<double, 5>& a_to_e, const glm::dvec3& sun) {
+    const auto& [a, b, c, d, e] = a_to_e;
     SkyRadiance sky;
-    sky.kind_ = Kind::cie;
+    sky.kind_ = Kind::by_sun;
     sky.gradation_ = {a, b};
-    sky.indicatrix_ = {c, d, e};
+    sky.indicatrix_ = {c, d, e, 0};
     sky.sun_ = sun;
     return sky;
 }
@@ -83,11 +89,20 @@ SkyRadiance SkyRadiance::cie(int type, const glm::dvec3& sun) {
 double SkyRadiance::operator()(const glm::dvec3& towards) const {
     if (kind_ == Kind::uniform) return 1;
     if (kind_ == Kind::overcast) return 1 + 2 * towards.y;
-    const double from_sun = math::acos(std::clamp(glm::dot(towards, sun_), -1.0, 1.0));
+    return at(towards.y, math::acos(std::clamp(glm::dot(towards, sun_), -1.0, 1.0)));
+}
+
+double SkyRadiance::at(double rise, double from_sun) const {
     const double cosine = math::cos(from_sun);
-    const auto& [c, d, e] = indicatrix_;
-    const double scattered = 1 + c * (math::exp(d * from_sun) - math::exp(d * pi / 2)) + e * cosine * cosine;
-    return scattered * (1 + gradation_.a * math::exp(gradation_.b / std::max(towards.y, 1e-9)));
+    const auto& [c, d, e, across] = indicatrix_;
+    const double scattered = 1 + c * (math::exp(d * from_sun) - across) + e * cosine * cosine;
+    return scattered * (1 + gradation_.a * math::exp(gradation_.b / std::max(rise, 1e-9)));
+}
+
+glm::dvec3 sunflower_direction(std::size_t i, double height) {
+    const double across = std::sqrt(1 - height * height);
+    const auto [sine, cosine] = math::sine_and_cosine(pi * (3 - std::sqrt(5.0)) * static_cast<double>(i));
+    return {across * cosine, height, across * sine};
 }
 
 std::vector<SkyPart> sky_parts(std::int64_t rings, std::int64_t around) {
@@ -116,4 +131,4 @@ std::vector<double> shares_on_ground(const SkyRadiance& radiance, const std::vec
     return shares;
 }
 
-}  // namespace espalier::environment
+}  // namespace espalier::geometry

@@ -1,4 +1,4 @@
-#include "environment/light/sky/radiance.h"
+#include "geometry/sky/radiance.h"
 
 #include "catch.h"
 
@@ -8,7 +8,7 @@
 #include <numbers>
 
 using namespace espalier;
-using namespace espalier::environment;
+using namespace espalier::geometry;
 
 namespace {
 

@@ -3,10 +3,12 @@
 
 #include <glm/vec3.hpp>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-namespace espalier::environment {
+namespace espalier::geometry {
 
 /// A sky's radiance towards a direction, as a multiple of an unknown that all directions share.
 class SkyRadiance {
@@ -19,8 +21,14 @@ public:
     /// 12 is the clear sky. `sun` is the unit vector towards the sun.
     static SkyRadiance cie(int type, const glm::dvec3& sun);
 
+    /// (1 + a exp(b / rise)) (1 + c exp(d s) + e cos2 s), s being the angle to the sun: Perez, Seals & Michalsky 1993,
+    /// All-weather model for sky luminance distribution.
+    static SkyRadiance perez(const std::array<double, 5>& a_to_e, const glm::dvec3& sun);
+
     /// Towards a unit vector above the horizon.
     double operator()(const glm::dvec3& towards) const;
+    /// Of CIE's and Perez' skies, where the zenith angle has the cosine `rise`, so many radians from the sun.
+    double at(double rise, double from_sun) const;
 
 private:
     struct Gradation {
@@ -28,14 +36,19 @@ private:
     };
     struct Indicatrix {
         double c, d, e;
+        double across;  ///< what exp(d s) is taken beyond
     };
-    enum class Kind : std::uint8_t { uniform, overcast, cie };
+    enum class Kind : std::uint8_t { uniform, overcast, by_sun };
 
     Kind kind_ = Kind::uniform;
     Gradation gradation_{};
     Indicatrix indicatrix_{};
     glm::dvec3 sun_{0, 1, 0};
 };
+
+/// Direction `i` of some that are spread evenly over the sphere if the heights of all are (sunflower pattern; Vogel
+/// 1979).
+glm::dvec3 sunflower_direction(std::size_t i, double height);
 
 /// A point of Gauss's quadrature over 0 .. 1; the weights add up to 1.
 struct GaussPoint {
@@ -57,4 +70,4 @@ std::vector<SkyPart> sky_parts(std::int64_t rings, std::int64_t around);
 /// The share of each part in the light that falls on level ground from a sky; they add up to 1.
 std::vector<double> shares_on_ground(const SkyRadiance& radiance, const std::vector<SkyPart>& parts);
 
-}  // namespace espalier::environment
+}  // namespace espalier::geometry
