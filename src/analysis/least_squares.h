@@ -16,7 +16,10 @@ struct FreeParameter {
 struct LeastSquares {
     std::vector<double> values;  ///< values of the parameters
     std::vector<double> errors;  ///< standard errors; NaN where the residuals do not decide a parameter
-    double residual = 0;         ///< root mean square
+    /// Of two parameters, how much a change of one makes up for that of the other: 1 or -1 where it does wholly, so
+    /// that the residuals tell only one of the two. 0 with a parameter that changes no residual.
+    std::vector<std::vector<double>> correlations;
+    double residual = 0;  ///< root mean square
     int evaluations = 0;
 };
 

@@ -69,6 +69,7 @@ const std::map<std::string, std::vector<Room>> stations{
          {"exchange", ""},
          {"leaf/gas", ""},
          {"leaf/carbon", ""},
+         {"leaf/measured", ""},
          {"light/sun", ""},
          {"given/weather", "exchange leaf/gas light/sun"},
          {"given/external", "exchange"},

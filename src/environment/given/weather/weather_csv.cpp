@@ -2,6 +2,7 @@
 #include "base/csv_rows.h"
 #include "base/number.h"
 #include "base/text.h"
+#include "base/unit_text.h"
 #include "environment/given/weather/weather_formats.h"
 
 #include <fmt/format.h>
@@ -97,28 +98,6 @@ Units units_of_time() {
     return {{"h", 1, {}}, {"min", 1.0 / 60, {}}, {"s", 1.0 / 3600, {}}, {"d", 24, {}}};
 }
 
-/// The unit with the letters that stand on every keyboard: "umol m-2 s-1" of "\u00b5mol m\u207b\u00b2 s\u207b\u00b9".
-std::string plain_unit(std::string unit) {
-    static const std::vector<std::pair<std::string, std::string>> letters{
-        {"\xC2\xB5", "u"}, {"\xCE\xBC", "u"}, {"\xE2\x81\xBB", "-"}, {"\xC2\xB2", "2"},
-        {"\xC2\xB9", "1"}, {"\xC2\xB7", " "}, {"\xE2\x88\x92", "-"}, {"^", ""}};
-    for (const auto& [from, to] : letters) {
-        for (std::size_t at = unit.find(from); at != std::string::npos; at = unit.find(from, at)) {
-            unit.replace(at, from.size(), to);
-        }
-    }
-    return unit;
-}
-
-/// "global (W m-2)" or "Global [W m-2]" as name, in small letters, and unit.
-std::pair<std::string, std::string> name_and_unit(const std::string& cell) {
-    const std::size_t open = cell.find_first_of("(["), close = cell.find_last_of(")]");
-    if (open == std::string::npos || close == std::string::npos || close < open)
-        return {in_small_letters(trimmed(cell)), ""};
-    return {in_small_letters(trimmed(cell.substr(0, open))),
-            std::string(trimmed(cell.substr(open + 1, close - open - 1)))};
-}
-
 /// The whole number of so many digits at a place of the text.
 std::optional<int> digits(const std::string& text, std::size_t at, std::size_t count) {
     if (at + count > text.size()) return std::nullopt;
@@ -163,7 +142,9 @@ private:
     }
 
     Column column_of(const CsvRow& header, const std::string& cell, const std::vector<KnownColumn>& known) {
-        const auto [name, written] = name_and_unit(cell);
+        const NameAndUnit both = name_and_unit(cell);
+        const std::string name = in_small_letters(both.name);
+        const std::string& written = both.unit;
         const int number = static_cast<int>(columns_.size() + 1);
         if (name == "date") return {name, Column::Kind::date};
         const auto one =
