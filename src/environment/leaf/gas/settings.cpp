@@ -28,6 +28,7 @@ LeafKind read_leaf_kind(const Settings& settings) {
     stomata.deficit_0 = settings.number_or("d0", stomata.deficit_0, Range::positive());
     stomata.sensitivity = settings.number_or("sf", 0, Range::between(0, 50));
     stomata.reference = settings.number_or("psi_f", stomata.reference, Range::between(-20, 0));
+    stomata.dry = settings.number_or("psi_dry", stomata.dry, Range::between(-100, 0));
     leaf.width = settings.number_or("width", leaf.width, Range::between(1e-4, 10));
     return leaf;
 }
@@ -87,6 +88,7 @@ g1             4 kPa^0.5 (c4: 1.6), or 9 of the other forms; slope
 d0             1.5 kPa; of Leuning's form
 sf             0 MPa-1; how steeply stomata close with the water potential (Tuzet et al. 2003); 0: not at all
 psi_f          -2 MPa; where they have closed half-way
+psi_dry        -5 MPa; below it a leaf has dried, and its least conductance falls, too, e-fold in 0.5 MPa
 width          0.05 m; of a leaf along the wind
 )";
     return text;
