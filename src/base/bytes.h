@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <istream>
 #include <ostream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -68,17 +69,25 @@ void get_column(std::istream& in, Values& values) {
     if (!read_claimed(in, values, get<std::uint64_t>(in))) throw RunError("a column ends too early");
 }
 
+/// Numbers without their count, which the reader knows.
+inline void write_doubles(std::ostream& out, std::span<const double> values) {
+    out.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size_bytes()));
+}
+
+inline void read_doubles(std::istream& in, std::span<double> values) {
+    in.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(values.size_bytes()));
+    if (!in) throw RunError("the checkpoint ends too early");
+}
+
 inline void put_values(std::ostream& out, const std::vector<double>& values) {
     put(out, static_cast<std::uint64_t>(values.size()));
-    out.write(reinterpret_cast<const char*>(values.data()),
-              static_cast<std::streamsize>(values.size() * sizeof(double)));
+    write_doubles(out, values);
 }
 
 /// Throws RunError if there are not as many values as `values` holds.
 inline void get_values(std::istream& in, std::vector<double>& values) {
     if (get<std::uint64_t>(in) != values.size()) throw RunError("the checkpoint belongs to another model");
-    const auto bytes = static_cast<std::streamsize>(values.size() * sizeof(double));
-    if (!in.read(reinterpret_cast<char*>(values.data()), bytes)) throw RunError("the checkpoint ends too early");
+    read_doubles(in, values);
 }
 
 }  // namespace espalier

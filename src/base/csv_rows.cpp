@@ -68,13 +68,13 @@ std::string table_text(const std::filesystem::path& path) {
     return text;
 }
 
-CsvRows::CsvRows(const std::filesystem::path& path, bool comments) : CsvRows(path, table_text(path), comments) {}
+CsvRows::CsvRows(const std::filesystem::path& path) : CsvRows(path, table_text(path)) {}
 
-CsvRows::CsvRows(const std::filesystem::path& path, const std::string& text, bool comments) : path_(path.string()) {
+CsvRows::CsvRows(const std::filesystem::path& path, const std::string& text) : path_(path.string()) {
     std::istringstream lines(text);
     std::string line;
     for (int number = 1; std::getline(lines, line); ++number) {
-        if (trimmed(line).empty() || (comments && line.front() == '#')) continue;
+        if (trimmed(line).empty() || line.front() == '#') continue;
         if (rows_.empty()) separator_ = separator_of(line);
         CsvRow& row = rows_.emplace_back();
         row.line = number;
@@ -85,6 +85,21 @@ CsvRows::CsvRows(const std::filesystem::path& path, const std::string& text, boo
 
 const char* CsvRows::separators() const {
     return separator_ == ',' ? "commas" : separator_ == ';' ? "semicolons" : "tabs";
+}
+
+double CsvRows::number(const CsvRow& row, std::size_t column) const {
+    if (const std::optional<double> value = row.number(column)) return *value;
+    const std::string cell = column < row.cells.size() ? row.cells[column] : "";
+    throw UserError(place(row, column), fmt::format("'{}' is not a number", cell));
+}
+
+double CsvRows::measured(const CsvRow& row, std::size_t column, const std::string& series) const {
+    if (column >= row.cells.size() || row.cells[column].empty()) {
+        throw UserError(place(row, column), fmt::format("there is no number here: {} has no gaps", series));
+    }
+    const double value = number(row, column);
+    if (!row.is_missing(column)) return value;
+    throw UserError(place(row, column), fmt::format("{}: {} has no gaps", row.words_of_missing(column), series));
 }
 
 }  // namespace espalier

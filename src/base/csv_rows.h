@@ -31,12 +31,12 @@ std::string table_text(const std::filesystem::path& path);
 
 class CsvRows {
 public:
-    /// Leaves out empty lines and, if `comments`, those that begin with #. Cells are separated by commas, semicolons or
+    /// Leaves out empty lines and those that begin with #. Cells are separated by commas, semicolons or
     /// tabs, whichever are most in the first row; a byte-order mark is passed over. Throws UserError for a file that
     /// cannot be read.
-    CsvRows(const std::filesystem::path& path, bool comments);
+    explicit CsvRows(const std::filesystem::path& path);
     /// The same of a text that was read already, by `table_text`.
-    CsvRows(const std::filesystem::path& path, const std::string& text, bool comments);
+    CsvRows(const std::filesystem::path& path, const std::string& text);
 
     const std::vector<CsvRow>& rows() const { return rows_; }
     /// "commas", "semicolons" or "tabs".
@@ -44,6 +44,10 @@ public:
     /// Of a row, and of a cell of it, counted from 0.
     Place place(const CsvRow& row) const { return {path_, row.line, 0}; }
     Place place(const CsvRow& row, std::size_t column) const { return {path_, row.line, static_cast<int>(column) + 1}; }
+    /// A cell as a finite number. Throws UserError at it.
+    double number(const CsvRow& row, std::size_t column) const;
+    /// The same of a value that was measured, of `series`, which has no gaps.
+    double measured(const CsvRow& row, std::size_t column, const std::string& series) const;
 
 private:
     std::string path_;

@@ -22,7 +22,7 @@ double mixed(double a, double b, double share) {
 /// Rows of times and columns of heights, both rising.
 class ProfileTable {
 public:
-    explicit ProfileTable(const std::filesystem::path& path) : path_(path.string()), table_(path, true) {
+    explicit ProfileTable(const std::filesystem::path& path) : path_(path.string()), table_(path) {
         if (table_.rows().size() < 2) {
             throw UserError({path_, 1, 0}, "a profile has a line of heights and at least one line of values");
         }
@@ -45,22 +45,10 @@ public:
     const std::vector<double>& heights() const { return heights_; }
 
 private:
-    double number(const CsvRow& row, std::size_t column) const {
-        const std::optional<double> value = row.number(column);
-        if (value) return *value;
-        throw UserError(table_.place(row, column), fmt::format("'{}' is not a number", row.cells[column]));
-    }
-
-    double measured(const CsvRow& row, std::size_t column) const {
-        const double value = number(row, column);
-        if (!row.is_missing(column)) return value;
-        throw UserError(table_.place(row, column),
-                        fmt::format("{}: a profile has no gaps", row.words_of_missing(column)));
-    }
-
     // Tables run downwards as a rule; the heights are kept rising.
     void read_heights(const CsvRow& row) {
-        for (std::size_t column = 1; column < row.cells.size(); ++column) heights_.push_back(number(row, column));
+        for (std::size_t column = 1; column < row.cells.size(); ++column)
+            heights_.push_back(table_.number(row, column));
         falling_ = heights_.size() > 1 && heights_[1] < heights_[0];
         if (falling_) std::reverse(heights_.begin(), heights_.end());
         const bool is_rising =
@@ -76,14 +64,15 @@ private:
             throw UserError(table_.place(row), fmt::format("this line has {} cells, and the first {}", row.cells.size(),
                                                            heights_.size() + 1));
         }
-        const double time = number(row, 0);
+        const double time = table_.number(row, 0);
         if (!times_.empty() && time <= times_.back()) {
             throw UserError(table_.place(row, 0), fmt::format("time {} is not behind time {} of the line before",
                                                               format_general(time), format_general(times_.back())));
         }
         times_.push_back(time);
         std::vector<double>& line = lines_.emplace_back();
-        for (std::size_t column = 1; column < row.cells.size(); ++column) line.push_back(measured(row, column));
+        for (std::size_t column = 1; column < row.cells.size(); ++column)
+            line.push_back(table_.measured(row, column, "a profile"));
         if (falling_) std::reverse(line.begin(), line.end());
     }
 

@@ -7,6 +7,7 @@
 #include "environment/exchange/measured_before.h"
 #include "environment/given/weather/weather.h"
 #include "environment/leaf/gas/leaf_water.h"
+#include "environment/leaf/gas/penman_monteith.h"
 #include "environment/leaf/gas/settings.h"
 
 #include <fmt/format.h>
@@ -64,6 +65,21 @@ struct SuppliedLeaves {
     bool is_supplied = false;          ///< in this step
 };
 
+/// A plant as one leaf: sums over its leaves of what they get, times their areas.
+struct BigLeaf {
+    double area = 0, photons = 0, near_infrared = 0, lit = 0;
+
+    void add(double leaf_area, const LitParts& light) {
+        const auto mean = [&](double LeafLight::*of) {
+            return light.shade.*of + light.sunlit * (light.sun.*of - light.shade.*of);
+        };
+        area += leaf_area;
+        photons += leaf_area * mean(&LeafLight::photons);
+        near_infrared += leaf_area * mean(&LeafLight::near_infrared);
+        lit += leaf_area * light.lit;
+    }
+};
+
 struct LeafQuantity {
     OrganQuantity told;
     double (*of)(const LeafStep&);
@@ -88,6 +104,28 @@ const std::array<LeafQuantity, 9>& known() {
     return all;
 }
 
+/// Those of the table, and of its tables `kinds` for some plants.
+struct LeafKinds {
+    std::vector<LeafKind> kinds;
+    std::vector<std::size_t> of_plants;  ///< numbers of their kinds
+
+    LeafKinds(const Settings& settings, std::uint32_t plants)
+        : kinds{read_leaf_kind(settings)}, of_plants(std::max(plants, 1U), 0) {
+        for (const Settings& table : settings.tables("kinds")) {
+            for (const double plant : table.numbers("plants")) of_plants[number(table, plant, plants)] = kinds.size();
+            kinds.push_back(read_leaf_kind(table, kinds.front()));
+        }
+    }
+
+private:
+    static std::size_t number(const Settings& table, double plant, std::uint32_t plants) {
+        if (plant >= 0 && plant < plants && plant == std::floor(plant)) return static_cast<std::size_t>(plant);
+        throw UserError(table.place("plants"),
+                        fmt::format("there is no plant {:g}: they are numbered from 0 to {}, as in statistics.csv",
+                                    plant, static_cast<int>(plants) - 1));
+    }
+};
+
 /// The process that brings water to leaves; null: their potential is given.
 LeafSupply* supply_of(const Settings& settings, const Fields& fields) {
     if (!settings.has("roots")) return nullptr;
@@ -111,7 +149,7 @@ public:
         : name_(context.name),
           light_(settings.text("light")),
           light_place_(settings.place("light")),
-          kind_(read_leaf_kind(settings)),
+          kinds_(settings, context.plants),
           weather_(Weather::named_by(settings, "air", fields)),
           air_(SceneAir::read(settings)),
           near_infrared_(settings.number_or("nir", 0.25, Range::between(0, 10))),
@@ -119,7 +157,9 @@ public:
           is_divided_(settings.flag_or("sunlit", true)),
           days_(read_days(settings, weather_.get())),
           supply_(supply_of(settings, fields)),
+          compares_(settings.choice_or("canopy", "leaves", {"leaves", "big-leaf"}) == "big-leaf"),
           leaves_(context.plants),
+          big_(context.plants),
           supplied_(supply_ ? context.plants : 0),
           residuals_(context.plants, 0) {
         if (supply_) supply_->attach(*this, name_);
@@ -146,11 +186,17 @@ public:
         take_weather();
         now_ = air_.air();
         dark_ = {0, 0, air_.thermal_radiation()};
-        unlit_ = gas_exchange(kind_, dark_, now_, potential_);
-        residual_in_the_dark_ = residuals_of(unlit_, kind_, dark_, now_, potential_).largest();
+        unlit_.clear();
+        residual_in_the_dark_ = 0;
+        for (const LeafKind& kind : kinds_.kinds) {
+            unlit_.push_back(gas_exchange(kind, dark_, now_, potential_));
+            residual_in_the_dark_ =
+                std::max(residual_in_the_dark_, residuals_of(unlit_.back(), kind, dark_, now_, potential_).largest());
+        }
         for (std::vector<LeafStep>& plant : leaves_) plant.clear();
         std::fill(residuals_.begin(), residuals_.end(), 0);
         for (SuppliedLeaves& plant : supplied_) plant = {};
+        std::fill(big_.begin(), big_.end(), BigLeaf{});
         if (!supply_) return;
         for (const PlantView& plant : world.plants) {
             if (plant.plant < supplied_.size()) list_leaves(plant, *world.environment);
@@ -168,8 +214,8 @@ public:
         for_in_parallel(std::size_t{0}, all.leaves.size(), [&](std::size_t i) {
             LeafStep& leaf = leaves_[plant][all.leaves[i].module];
             leaf.potential = potentials[i];
-            const Solved found = solved(all.light[i], leaf.potential);
-            const SlopingExchange dark = in_the_dark(leaf.potential);
+            const Solved found = solved(plant, all.light[i], leaf.potential);
+            const SlopingExchange dark = in_the_dark(plant, leaf.potential);
             leaf.lit = found.leaf;
             all.residuals[i] = found.residual;
             all.now[i] = rates(leaf, all.light[i].lit, dark.leaf);
@@ -219,14 +265,16 @@ public:
         }
         const double none = std::nan(""), days = seconds_ / seconds_per_day;
         const double moles = sum.water / cm3_of_mole;
-        return {{"gain", sum.gain, "mol"},
-                {"water", sum.water, "cm3"},
-                {"transpiration", days > 0 ? sum.water / days : 0, "cm3/d"},
-                {"efficiency", moles > 0 ? 1000 * sum.gain / moles : none, "mmol/mol"},
-                {"temperature", sum.area > 0 ? warmth / sum.area : none, "degC"},
-                {"potential", sum.area > 0 ? potential / sum.area : none, "MPa"},
-                {"leaf_area", sum.area, "m2"},
-                {"residual", plant < residuals_.size() ? residuals_[plant] : 0}};
+        std::vector<Quantity> all{{"gain", sum.gain, "mol"},
+                                  {"water", sum.water, "cm3"},
+                                  {"transpiration", days > 0 ? sum.water / days : 0, "cm3/d"},
+                                  {"efficiency", moles > 0 ? 1000 * sum.gain / moles : none, "mmol/mol"},
+                                  {"temperature", sum.area > 0 ? warmth / sum.area : none, "degC"},
+                                  {"potential", sum.area > 0 ? potential / sum.area : none, "MPa"},
+                                  {"leaf_area", sum.area, "m2"},
+                                  {"residual", plant < residuals_.size() ? residuals_[plant] : 0}};
+        if (compares_) compare(plant, all);
+        return all;
     }
 
     std::vector<OrganQuantity> organ_quantities() const override {
@@ -262,6 +310,39 @@ public:
     Spreading spreading() const override { return Spreading::plants; }
 
 private:
+    /// What a plant would do as one leaf, and what a lawn would.
+    void compare(std::uint32_t plant, std::vector<Quantity>& all) const {
+        const double none = std::nan("");
+        const double lawn = weather_ ? weather_->now().evaporation / (seconds_ / seconds_per_day) : none;
+        double gain = none, water = none, by_formula = none;
+        if (plant < big_.size() && big_[plant].area > 0) {
+            const BigLeaf& big = big_[plant];
+            const LeafLight light{big.photons / big.area, big.near_infrared / big.area, dark_.thermal};
+            double potential = 0, conductance = 0;
+            for (const LeafStep& leaf : leaves_[plant]) {
+                potential += leaf.area * leaf.potential / big.area;
+                if (leaf.area > 0) conductance += leaf.area * leaf.lit.conductance / big.area;
+            }
+            const double lit = big.lit / big.area, days = seconds_ / seconds_per_day;
+            LeafStep one;
+            one.area = big.area;
+            one.lit = solved(kind_of(plant), light, potential).leaf;
+            const GasExchange unlit = in_the_dark(plant, potential).leaf;
+            const LeafRates made = rates(one, lit, unlit);
+            gain = made.gain * days;
+            water = made.water;
+            const auto formula = [&](const LeafLight& of, double open) {
+                return penman_monteith(kind_of(plant), of, now_, open);
+            };
+            by_formula = big.area * cm3_of_mole * seconds_per_day *
+                         (lit * formula(light, conductance) + (1 - lit) * formula(dark_, unlit.conductance));
+        }
+        all.push_back({"big_gain", gain, "mol"});
+        all.push_back({"big_transpiration", water, "cm3/d"});
+        all.push_back({"penman_monteith", by_formula, "cm3/d"});
+        all.push_back({"fao56", lawn, "mm/d"});
+    }
+
     /// What the scene says of these leaves themselves stays.
     void take_weather() {
         if (!weather_) return;
@@ -315,18 +396,24 @@ private:
         if (!light.area || !light.power || !light.lit) return;
         leaves.assign(light.area->size(), {});
         std::vector<double> residuals(leaves.size(), 0);
+        std::vector<LitParts> lights(leaves.size());
+        for (std::size_t i = 0; i < leaves.size(); ++i) {
+            if (!((*light.area)[i] > 0)) continue;
+            lights[i] = light_on(light, i);
+            big_[plant.plant].add((*light.area)[i], lights[i]);
+        }
         for_in_parallel(std::size_t{0}, leaves.size(), [&](std::size_t i) {
             const float area = (*light.area)[i];
             if (!(area > 0)) return;
             LeafStep& leaf = leaves[i];
             leaf.area = area;
             leaf.potential = potential_;
-            const LitParts parts = light_on(light, i);
-            const Solved found = solved(parts, potential_);
+            const LitParts& parts = lights[i];
+            const Solved found = solved(plant.plant, parts, potential_);
             leaf.lit = found.leaf;
             residuals[i] = std::max(residual_in_the_dark_, found.residual);
             if (!has_time_passed) return;
-            const LeafRates made = rates(leaf, parts.lit, unlit_);
+            const LeafRates made = rates(leaf, parts.lit, unlit_[kinds_.of_plants[plant.plant]]);
             leaf.gain = made.gain * seconds_ / seconds_per_day;
             leaf.water = made.water * seconds_ / seconds_per_day;
         });
@@ -346,6 +433,7 @@ private:
             leaves[module].area = area;
             supplied.leaves.push_back({module, area});
             supplied.light.push_back(light_on(light, module));
+            big_[plant.plant].add(area, supplied.light.back());
         }
         supplied.now.resize(supplied.leaves.size());
         supplied.mean.resize(supplied.leaves.size());
@@ -375,22 +463,22 @@ private:
         double by_potential = 0;  ///< of the transpiration, mol m-2 s-1 MPa-1
     };
 
-    Solved solved(const LeafLight& light, double potential) const {
-        const SlopingExchange found = supply_ ? sloping_gas_exchange(kind_, light, now_, potential)
-                                              : SlopingExchange{gas_exchange(kind_, light, now_, potential)};
-        return {found.leaf, residuals_of(found.leaf, kind_, light, now_, potential).largest(),
+    Solved solved(const LeafKind& kind, const LeafLight& light, double potential) const {
+        const SlopingExchange found = supply_ ? sloping_gas_exchange(kind, light, now_, potential)
+                                              : SlopingExchange{gas_exchange(kind, light, now_, potential)};
+        return {found.leaf, residuals_of(found.leaf, kind, light, now_, potential).largest(),
                 found.transpiration_by_potential};
     }
 
     /// Both parts of a leaf, and what they are together.
-    Solved solved(const LitParts& light, double potential) const {
+    Solved solved(std::uint32_t plant, const LitParts& light, double potential) const {
         if (!(light.shade.photons > 0) && light.sunlit == 0) {
-            const SlopingExchange dark = in_the_dark(potential);
+            const SlopingExchange dark = in_the_dark(plant, potential);
             return {dark.leaf, residual_in_the_dark_, dark.transpiration_by_potential};
         }
-        Solved all = solved(light.shade, potential);
+        Solved all = solved(kind_of(plant), light.shade, potential);
         if (light.sunlit == 0) return all;
-        const Solved sun = solved(light.sun, potential);
+        const Solved sun = solved(kind_of(plant), light.sun, potential);
         for (double GasExchange::*const rate :
              {&GasExchange::assimilation, &GasExchange::transpiration, &GasExchange::conductance,
               &GasExchange::temperature, &GasExchange::internal, &GasExchange::deficit}) {
@@ -401,10 +489,12 @@ private:
         return all;
     }
 
+    const LeafKind& kind_of(std::uint32_t plant) const { return kinds_.kinds[kinds_.of_plants[plant]]; }
+
     /// All leaves that have not dried are alike in the dark.
-    SlopingExchange in_the_dark(double potential) const {
-        if (potential >= kind_.stomata.dry) return {unlit_, 0};
-        return sloping_gas_exchange(kind_, dark_, now_, potential);
+    SlopingExchange in_the_dark(std::uint32_t plant, double potential) const {
+        if (potential >= kind_of(plant).stomata.dry) return {unlit_[kinds_.of_plants[plant]], 0};
+        return sloping_gas_exchange(kind_of(plant), dark_, now_, potential);
     }
 
     LeafRates rates(const LeafStep& leaf, double lit, const GasExchange& unlit) const {
@@ -421,7 +511,7 @@ private:
 
     std::string name_, light_;
     Place light_place_;
-    LeafKind kind_;
+    LeafKinds kinds_;
     std::shared_ptr<const Weather> weather_;  ///< null: the air is the table's alone
     SceneAir air_;
     std::set<std::string> own_air_;  ///< keys that the weather does not change
@@ -430,6 +520,7 @@ private:
     bool is_divided_;
     double days_;
     LeafSupply* supply_;  ///< null: the potential is given
+    bool compares_;       ///< plants as one leaf, and a lawn, are told, too
     std::string air_name_;
     Place air_place_;
     // Of the step.
@@ -437,9 +528,10 @@ private:
     bool has_near_infrared_ = false;  ///< the light measures it
     Air now_;
     LeafLight dark_;
-    GasExchange unlit_;  ///< of every leaf in the dark
+    std::vector<GasExchange> unlit_;  ///< of every leaf in the dark, by kind
     double residual_in_the_dark_ = 0;
     std::vector<std::vector<LeafStep>> leaves_;  ///< of each plant, by module
+    std::vector<BigLeaf> big_;                   ///< of each plant
     std::vector<SuppliedLeaves> supplied_;       ///< of each plant
     std::vector<double> residuals_;
 };
@@ -458,11 +550,15 @@ potential      0 MPa; without `roots`: water potential of all leaves, by which s
                what the leaves give where a root-water says collar = { leaves = "name of this process" }
 sunlit         true; leaves are a part in the sun's own light and a part without it, by the shares that the light tells; false:
                their mean light counts
+canopy         "leaves", or "big-leaf"; with it, statistics also tell what each plant would do as one leaf in the mean light of its
+               leaves, what Penman & Monteith's equation gives for that leaf with the mean conductance of the leaves, and the
+               evaporation of a lawn in the weather (FAO-56)
 days           1; days that a unit of time stands for
 
 Of the leaves:
 )" + leaf_help() +
-        R"(
+        R"(kinds          []; tables of other leaves: plants = [1, 2], by their numbers from 0, and what of the above is different
+
 Of the air; temperature, humidity, wind, co2, cloud and potential may have keyframes. Of the first four and the pressure, what
 is not written here is the weather's, where `air` names one; its calm is a wind of 0.1 m/s at the leaves:
 air            none; the name of a process weather that stands before this one
@@ -478,7 +574,8 @@ The light of a step counts as its mean while there is light: photosynthesis is n
 right and steps of a day take 5 to 20 % too much on a clear one (C4: 3 to 10).
 
 Statistics of each plant: gain (mol) and water (cm3) of the step, transpiration (cm3/d), efficiency (mmol CO2 per mol of water),
-temperature, potential (MPa), leaf_area (m2), residual: how far the equations are from holding, of the largest term.
+temperature, potential (MPa), leaf_area (m2), residual: how far the equations are from holding, of the largest term. With canopy = "big-leaf" also big_gain (mol), big_transpiration and
+penman_monteith (cm3/d) and fao56 (mm/d).
 Organs: assimilation, transpiration, conductance, temperature, internal, deficit, potential, gain, water.)";
     return text;
 }

@@ -6,7 +6,6 @@
 #include "environment/soil/grid/direction.h"
 #include "environment/soil/grid/field.h"
 #include "environment/soil/grid/solids.h"
-#include "environment/soil/linear/stock.h"
 #include "environment/soil/richards/sink.h"
 #include "environment/soil/solutes/solute_in_soil.h"
 #include "geometry/grids/voxel_values.h"
@@ -126,15 +125,8 @@ private:
     }
 
     void make_layout(const EnvironmentContext& context, const Fields& fields) {
-        const WaterParameters& space = parameters_.soil.water;
-        const double voxels = WaterGrid::voxels_needed(space.domain, space.voxel, space.flat);
-        if (!(voxels <= 1e9) || voxels * bytes_per_voxel > static_cast<double>(context.memory)) {
-            throw UserError(space.voxel_place, "'" + context.name +
-                                                   "' would take more memory than there is: use larger voxels or a "
-                                                   "smaller domain");
-        }
-        const WaterGrid grid(space.domain, space.voxel, space.flat);
-        own_solids_.emplace(space);
+        const WaterGrid grid = parameters_.soil.space.affordable_grid(context, bytes_per_voxel);
+        own_solids_.emplace(parameters_.soil.space);
         own_solids_->look(fields);
         own_layout_.emplace(grid, parameters_.soil, own_solids_->free_voxels(grid), fields);
         movement_.resize(grid);
@@ -152,12 +144,7 @@ private:
         if (!water_) return;
         const VoxelReader water(water_->current ? water_->current() : water_->grid);
         const WaterGrid& grid = layout().grid();
-        for (std::size_t row = 0; row < grid.rows(); ++row) {
-            for (int x = 0; x < grid.size().x; ++x) {
-                const glm::dvec3 at = grid.centre({x, grid.y_of(row), grid.z_of(row)});
-                contents_[grid.row_begin(row) + x] = water.value(at);
-            }
-        }
+        grid.for_each_cell([&](std::size_t cell) { contents_[cell] = water.value(grid.centre(grid.voxel_of(cell))); });
     }
 
     void show(const std::string& name, const std::string& unit, const char* meaning, Fields& fields,

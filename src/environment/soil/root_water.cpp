@@ -3,9 +3,9 @@
 #include "espalier/environment/environment.h"
 #include "espalier/environment/environment_process.h"
 
+#include "base/bytes.h"
 #include "environment/soil/grid/field.h"
 #include "environment/soil/hydraulics/heads.h"
-#include "environment/soil/linear/stock.h"
 #include "environment/soil/richards/sink.h"
 #include "environment/soil/roots/internode_water.h"
 #include "environment/soil/roots/uptake.h"

@@ -1,13 +1,10 @@
 // Soil water: a content that diffuses between obstacles, layers and sides, and that roots drink.
-// Its parameters and queries are described in water/parameters.cpp, the numbers behind it in docs/water.md. With
-// model = "richards" it is another process: soil/richards_process.h.
+// Its parameters and queries are described in linear/parameters.cpp, the numbers behind it in docs/water.md. With
+// model = "richards" it is another process: richards/richards_process.h.
 #include "espalier/environment/environment_process.h"
 
-#include "base/text.h"
-#include "environment/exchange/changing_settings.h"
 #include "environment/soil/grid/field.h"
-#include "environment/soil/grid/parameters.h"
-#include "environment/soil/grid/senses.h"
+#include "environment/soil/grid/queries.h"
 #include "environment/soil/grid/solids.h"
 #include "environment/soil/linear/diffusion.h"
 #include "environment/soil/linear/steady.h"
@@ -27,30 +24,18 @@ namespace {
 // Two bricks of doubles, two grids of floats, flags.
 constexpr double bytes_per_voxel = 2 * 8 + 2 * 5 + 3;
 
-WaterGrid affordable_grid(const WaterParameters& parameters, const EnvironmentContext& context) {
-    const double voxels = WaterGrid::voxels_needed(parameters.domain, parameters.voxel, parameters.flat);
-    const double bytes = voxels * (bytes_per_voxel + (parameters.steady ? steady_bytes_per_voxel : 0));
-    if (!(voxels <= 2e9) || bytes > static_cast<double>(context.memory)) {
-        throw UserError(parameters.voxel_place,
-                        fmt::format("'{}' would have {} voxels and take {} GB: use larger voxels, a smaller domain or "
-                                    "more memory",
-                                    context.name, format_general(voxels), format_general(bytes / 1e9)));
-    }
-    return WaterGrid(parameters.domain, parameters.voxel, parameters.flat);
-}
-
 class SoilWater final : public EnvironmentProcess {
 public:
     SoilWater(Settings& settings, const EnvironmentContext& context, Fields& fields)
         : parameters_(read_water_parameters(settings, context)),
-          grid_(affordable_grid(parameters_, context)),
-          solids_(parameters_),
+          grid_(parameters_.space.affordable_grid(context,
+                                                  bytes_per_voxel + (parameters_.steady ? steady_bytes_per_voxel : 0))),
+          solids_(parameters_.space),
           diffusion_(grid_, parameters_),
           field_(context.name, parameters_.unit, grid_),
           name_(context.name),
           warnings_(context.warnings),
-          uptake_(context.plants, 0),
-          wish_(context.plants, 0) {
+          queries_(parameters_.querying, context) {
         solids_.look(fields);
         stock_.emplace(grid_, parameters_, solids_.free_voxels(grid_));
         if (parameters_.steady) stock_->settle(diffusion_);
@@ -75,28 +60,19 @@ public:
     }
 
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
-        const WaterSenses senses{grid_, stock_->faces(), solids_, parameters_, stock_->contents()};
-        const std::vector<WaterWish> wishes = sense_water(senses, queries, answers);
-        warn_of_wishes_beyond_voxels(queries);
-        const std::vector<double> obtained = parameters_.depletion ? stock_->share(wishes) : stock_->lend(wishes);
-        std::fill(uptake_.begin(), uptake_.end(), 0);
-        std::fill(wish_.begin(), wish_.end(), 0);
-        for (std::size_t q = 0; q < queries.size(); ++q) {
-            if (answers[q].empty()) continue;
-            answers[q][0] = obtained[q] * parameters_.amount;
-            if (queries[q].plant >= uptake_.size()) continue;
-            uptake_[queries[q].plant] += answers[q][0];
-            wish_[queries[q].plant] += wishes[q].amount * parameters_.amount;
-        }
+        queries_.answer({grid_, stock_->faces(), solids_, stock_->contents(), false, false,
+                         [this](double height) {
+                             const WaterLayer* const layer = parameters_.layer_at(height);
+                             return layer ? layer->gravity : glm::dvec3(0, -1, 0);
+                         }},
+                        queries, answers, *stock_);
         stock_->measure();
         warn_of_water_without_room();
         field_.change();
     }
 
     std::vector<ChangingSetting> changing_settings() override {
-        std::vector<ChangingSetting> settings{
-            changing("range", Range::positive(), parameters_.range),
-            changing("gradient_length", Range::positive(), parameters_.gradient_length)};
+        std::vector<ChangingSetting> settings = changing_settings_of(parameters_.querying);
         for (std::size_t k = 0; k < parameters_.sources.size(); ++k) {
             const bool holds = parameters_.sources[k].hold.has_value();
             const Range range = holds ? Range::between(0, std::min(parameters_.porosity, 1e30)) : content_range;
@@ -108,19 +84,17 @@ public:
 
     std::vector<Quantity> statistics(std::uint32_t plant) const override {
         const WaterBalance& balance = stock_->balance();
-        const double amount = parameters_.amount;
-        const std::string unit = parameters_.amount == 1 ? "voxels" : "m3";
-        return {{"uptake", plant < uptake_.size() ? uptake_[plant] : 0, unit},
-                {"wish", plant < wish_.size() ? wish_[plant] : 0, unit},
-                {"total", balance.total * amount, unit},
-                {"added", balance.added * amount, unit},
-                {"boundary", balance.boundary * amount, unit},
-                {"drunk", balance.drunk * amount, unit},
-                {"displaced", balance.displaced * amount, unit},
-                {"runoff", balance.runoff * amount, unit},
-                {"balance", balance.relative_error()},
-                {"minimum", balance.minimum, "m3/m3"},
-                {"maximum", balance.maximum, "m3/m3"}};
+        const double amount = parameters_.querying.amount;
+        const std::string unit = parameters_.querying.unit();
+        return queries_.statistics(plant, {{"total", balance.total * amount, unit},
+                                           {"added", balance.added * amount, unit},
+                                           {"boundary", balance.boundary * amount, unit},
+                                           {"drunk", balance.drunk * amount, unit},
+                                           {"displaced", balance.displaced * amount, unit},
+                                           {"runoff", balance.runoff * amount, unit},
+                                           {"balance", balance.relative_error()},
+                                           {"minimum", balance.minimum, "m3/m3"},
+                                           {"maximum", balance.maximum, "m3/m3"}});
     }
 
     std::pair<int, int> query_arity() const override { return {1, 100}; }
@@ -132,41 +106,21 @@ public:
 
     void save(std::ostream& out) const override {
         stock_->save(out);
-        write_doubles(out, uptake_);
-        write_doubles(out, wish_);
+        queries_.save(out);
     }
 
     void restore(std::istream& in) override {
         stock_->restore(in);
-        read_doubles(in, uptake_);
-        read_doubles(in, wish_);
+        queries_.restore(in);
         field_.set_faces(stock_->faces());
         restored_ = true;
     }
 
 private:
-    // Once. Wishes in content times voxels are a million times too large where voxels of a centimetre count as volumes.
-    void warn_of_wishes_beyond_voxels(std::span<const Query> queries) {
-        const double most = 8 * parameters_.amount;  // eight voxels of nothing but water
-        if (!warnings_ || parameters_.amount == 1) return;
-        for (const Query& query : queries) {
-            if (query.parameters[0] <= most) continue;
-            warnings_->push_back(
-                {Diagnostic::Severity::warning, parameters_.amount_place,
-                 fmt::format("plant {} requests {:g} of '{}', but a voxel holds at most {:.3g}: with "
-                             "amount = \"volume\", requests are content times m3. Request less, or use "
-                             "amount = \"content\"",
-                             query.plant, query.parameters[0], name_, parameters_.amount),
-                 ""});
-            warnings_ = nullptr;
-            return;
-        }
-    }
-
     // Once. A concentration may be what it likes, but there is no more than a cubic metre of water in one of soil.
     void warn_of_water_without_room() {
         if (!warnings_ || parameters_.unit != "m3/m3" || !(stock_->balance().maximum > 1)) return;
-        warnings_->push_back({Diagnostic::Severity::warning, parameters_.settings_place,
+        warnings_->push_back({Diagnostic::Severity::warning, parameters_.space.place,
                               fmt::format("'{}' holds {:.3g} m3/m3, more water than there is room: give the soil its "
                                           "porosity (porosity = 0.45), so that the excess runs off, or another unit",
                                           name_, stock_->balance().maximum),
@@ -183,7 +137,7 @@ private:
     bool restored_ = false;  ///< the solids looked at are older than the stock
     std::string name_;
     std::vector<Diagnostic>* warnings_;  ///< null as soon as there was one
-    std::vector<double> uptake_, wish_;  ///< per plant, this step
+    SoilQueries queries_;
 };
 
 std::unique_ptr<EnvironmentProcess> make_soil(Settings& settings, const EnvironmentContext& context, Fields& fields) {

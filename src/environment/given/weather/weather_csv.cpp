@@ -1,15 +1,12 @@
 // Tables whose header names columns and units.
-#include "base/csv_rows.h"
-#include "base/number.h"
 #include "base/text.h"
 #include "base/unit_text.h"
+#include "environment/given/weather/series_clock.h"
 #include "environment/given/weather/weather_formats.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace espalier::environment {
 namespace {
@@ -94,21 +91,11 @@ std::vector<KnownColumn> known_air() {
               {"ppm", 1, Measure::carbon_dioxide}}}};
 }
 
-Units units_of_time() {
-    return {{"h", 1, {}}, {"min", 1.0 / 60, {}}, {"s", 1.0 / 3600, {}}, {"d", 24, {}}};
-}
-
-/// The whole number of so many digits at a place of the text.
-std::optional<int> digits(const std::string& text, std::size_t at, std::size_t count) {
-    if (at + count > text.size()) return std::nullopt;
-    return whole_text_as<int>(std::string_view(text).substr(at, count));
-}
-
 /// Reads one file.
 class WeatherCsv {
 public:
     WeatherCsv(const std::filesystem::path& path, const std::string& text, const WeatherReading& reading)
-        : table_(path, text, true), reading_(reading), rows_(path.string(), reading) {}
+        : table_(path, text), reading_(reading), rows_(path.string(), reading) {}
 
     WeatherTable read() {
         for (const CsvRow& row : table_.rows()) {
@@ -119,15 +106,15 @@ public:
             }
         }
         WeatherTable table = rows_.table();
-        table.year = year_;
-        table.day = day_;
+        table.year = clock_->year();
+        table.day = clock_->day();
         return table;
     }
 
 private:
     struct Column {
         std::string name;
-        enum class Kind { other, time, date, value } kind = Kind::other;
+        bool is_value = false;  ///< of weather
         KnownUnit unit = {"", 1, {}};
     };
 
@@ -136,41 +123,35 @@ private:
         for (KnownColumn& column : reading_.light_only ? std::vector<KnownColumn>() : known_air()) {
             known.push_back(std::move(column));
         }
-        known.push_back({"time", units_of_time()});
+        known.push_back({"time", {}});
+        clock_ = SeriesClock::find(table_, header);
         for (const std::string& cell : header.cells) columns_.push_back(column_of(header, cell, known));
         require_columns(header);
     }
 
     Column column_of(const CsvRow& header, const std::string& cell, const std::vector<KnownColumn>& known) {
-        const NameAndUnit both = name_and_unit(cell);
-        const std::string name = in_small_letters(both.name);
-        const std::string& written = both.unit;
-        const int number = static_cast<int>(columns_.size() + 1);
-        if (name == "date") return {name, Column::Kind::date};
+        const ColumnHead head = ColumnHead::of(cell);
+        const std::string& name = head.name;
+        const Place place = table_.place(header, columns_.size());
+        if (name == "date" || name == "time") return {name};
         const auto one =
             std::find_if(known.begin(), known.end(), [&](const KnownColumn& each) { return name == each.name; });
         if (one == known.end()) {
-            warn_of_unread(name, known, {table_.place(header).file, header.line, number});
+            warn_of_unread(name, known, place);
             return {name};
         }
-        const std::string unit = plain_unit(written);
+        const std::string unit = plain_unit(head.unit);
         const auto found = std::find_if(one->units.begin(), one->units.end(),
                                         [&](const KnownUnit& other) { return unit == plain_unit(other.unit); });
-        if (found == one->units.end()) refuse_unit(header.line, number, name, written, one->units);
-        if (name == "time") return {name, Column::Kind::time, *found};
+        if (found == one->units.end()) {
+            std::vector<std::string> units;
+            for (const KnownUnit& other : one->units) units.emplace_back(other.unit);
+            const bool is_pressure = name == "co2" && head.unit == "Pa";
+            refuse_unit(place, head, units, is_pressure ? " (40 Pa at sea level are 400 umol/mol)" : "");
+        }
         if (reading_.given.contains(quantity_of(found->measure))) return {name};
         if (found->measure == Measure::rain && unit == "mm") rows_.set_rain_amounts();
-        return {name, Column::Kind::value, *found};
-    }
-
-    [[noreturn]] void refuse_unit(int line, int number, const std::string& name, const std::string& written,
-                                  const Units& known) const {
-        std::vector<std::string> units;
-        for (const KnownUnit& other : known) units.emplace_back(other.unit);
-        const std::string pascal = name == "co2" && written == "Pa" ? " (40 Pa at sea level are 400 umol/mol)" : "";
-        rows_.refuse(line, number,
-                     fmt::format("the column '{}' has the unit '{}': write {} ({}), where the unit is one of: {}{}",
-                                 name, written, name, units.front(), fmt::join(units, ", "), pascal));
+        return {name, true, *found};
     }
 
     void warn_of_unread(const std::string& name, const std::vector<KnownColumn>& known, const Place& place) const {
@@ -182,17 +163,16 @@ private:
     }
 
     void require_columns(const CsvRow& header) const {
-        bool has_time = false, has_light = false, has_values = false, has_highest = false, has_lowest = false;
+        bool has_light = false, has_values = false, has_highest = false, has_lowest = false;
         for (const Column& column : columns_) {
-            has_time = has_time || column.kind == Column::Kind::time || column.kind == Column::Kind::date;
-            if (column.kind != Column::Kind::value) continue;
+            if (!column.is_value) continue;
             has_values = true;
             has_light = has_light || column.unit.measure == Measure::global || column.name == "par";
             has_highest = has_highest || column.unit.measure == Measure::highest;
             has_lowest = has_lowest || column.unit.measure == Measure::lowest;
         }
         const std::string found = fmt::format("in its cells, which {} separate", table_.separators());
-        if (!has_time) {
+        if (!clock_) {
             rows_.refuse(header.line, 0,
                          fmt::format("the header names no column 'time (h)' or 'date' {}: when was {} measured?", found,
                                      reading_.light_only ? "the light" : "this"));
@@ -218,24 +198,10 @@ private:
                          fmt::format("this row has {} cells, and the header {}, which {} separate", row.cells.size(),
                                      columns_.size(), table_.separators()));
         }
-        rows_.begin(hours_of(row), row.line);
+        rows_.begin(clock_->hours(table_, row), row.line);
         for (std::size_t i = 0; i < columns_.size(); ++i) {
-            if (columns_[i].kind == Column::Kind::value) read_value(row, i);
+            if (columns_[i].is_value) read_value(row, i);
         }
-    }
-
-    double hours_of(const CsvRow& row) {
-        for (std::size_t i = 0; i < columns_.size(); ++i) {
-            const int number = static_cast<int>(i + 1);
-            if (columns_[i].kind == Column::Kind::date) return read_date(row.cells[i], row.line, number);
-            if (columns_[i].kind != Column::Kind::time) continue;
-            const std::optional<double> hours = row.number(i);
-            if (!hours)
-                rows_.refuse(row.line, number, fmt::format("the time is '{}', which is no number", row.cells[i]));
-            if (*hours < 0) rows_.refuse(row.line, number, fmt::format("the time is {}, below 0", row.cells[i]));
-            return *hours * columns_[i].unit.factor;
-        }
-        return 0;
     }
 
     void read_value(const CsvRow& row, std::size_t i) {
@@ -251,31 +217,11 @@ private:
         rows_.set(unit.measure, *value * unit.factor + unit.offset, number, row.cells[i]);
     }
 
-    double read_date(const std::string& cell, int line, int column) {
-        const bool is_day = cell.size() == 10;
-        const auto year = digits(cell, 0, 4), month = digits(cell, 5, 2), day = digits(cell, 8, 2);
-        const auto hour = is_day ? std::optional(0) : digits(cell, 11, 2);
-        const auto minute = is_day ? std::optional(0) : digits(cell, 14, 2);
-        const auto second = cell.size() > 16 ? digits(cell, 17, 2) : std::optional(0);
-        const auto midnight = days_of_date(year.value_or(0), month.value_or(0), day.value_or(0));
-        if (!year || !hour || !minute || !second || !midnight || *hour > 24 || *minute > 59 || *second > 60) {
-            rows_.refuse(line, column,
-                         fmt::format("'{}' is no date: write 2025-06-21 13:30, civil time of the place", cell));
-        }
-        if (rows_.is_empty()) {
-            first_midnight_ = *midnight;
-            year_ = *year;
-            day_ = day_of_year(*year, *month, *day);
-        }
-        return 24.0 * static_cast<double>(*midnight - first_midnight_) + *hour + *minute / 60.0 + *second / 3600.0;
-    }
-
     CsvRows table_;
     const WeatherReading& reading_;
     WeatherRows rows_;
     std::vector<Column> columns_;
-    int year_ = 0, day_ = 0;
-    long long first_midnight_ = 0;
+    std::optional<SeriesClock> clock_;
 };
 
 }  // namespace

@@ -46,7 +46,7 @@ public:
 
     LeafRecords read() {
         find_names();
-        const CsvRows table(path_, text_, false);
+        const CsvRows table(path_, text_);
         find_columns(table);
         records_.instrument = instrument_->name;
         for (std::size_t i = first_; i < table.rows().size(); ++i) add(table.rows()[i]);
@@ -66,7 +66,7 @@ private:
         std::size_t begin = 0;
         for (int line = 1; line <= most_lines && begin < text_.size(); ++line) {
             const std::size_t end = std::min(text_.find('\n', begin), text_.size());
-            const CsvRows row(path_, text_.substr(begin, end - begin), false);
+            const CsvRows row(path_, text_.substr(begin, end - begin));
             instrument_ = row.rows().empty() ? nullptr : instrument_of(row.rows().front().cells);
             if (instrument_) {
                 text_ = std::string(static_cast<std::size_t>(line - 1), '\n') + text_.substr(begin);

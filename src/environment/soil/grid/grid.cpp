@@ -1,6 +1,5 @@
 #include "environment/soil/grid/grid.h"
 
-#include "base/parallel.h"
 #include "environment/exchange/covering.h"
 
 #include <algorithm>

@@ -4,8 +4,11 @@
 #include "espalier/base/column.h"
 #include "espalier/geometry/plant_geometry.h"
 
+#include "base/parallel.h"
+
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -61,6 +64,31 @@ public:
     }
     /// Within the box, its surface included; false for NaN.
     bool contains(const glm::dvec3& point) const;
+    /// Calls work(row) for every row, in parallel where that pays.
+    template <class Work>
+    void for_rows(Work work) const {
+        const std::size_t grain = std::max<std::size_t>(1, 4096 / stride());
+        if (rows() <= grain) {
+            for (std::size_t row = 0; row < rows(); ++row) work(row);
+            return;
+        }
+        for_in_parallel(tbb::blocked_range<std::size_t>(0, rows(), grain), [&](const auto& range) {
+            for (std::size_t row = range.begin(); row != range.end(); ++row) work(row);
+        });
+    }
+    /// Calls visit(cell) for every voxel of a row.
+    template <class Visit>
+    void for_cells_of(std::size_t row, Visit visit) const {
+        const std::size_t begin = row_begin(row), end = begin + size_.x;
+        for (std::size_t cell = begin; cell != end; ++cell) visit(cell);
+    }
+
+    /// The same for all, one after the other.
+    template <class Visit>
+    void for_each_cell(Visit visit) const {
+        for (std::size_t row = 0; row < rows(); ++row) for_cells_of(row, visit);
+    }
+
     /// (Tri)linear interpolation weights of `point` among all voxels, free or not; beyond the outermost centres the
     /// nearest counts alone. `point` must be contained.
     WaterStencil stencil(const glm::dvec3& point) const;
@@ -89,7 +117,25 @@ public:
     bool plain_row(std::size_t row) const { return plain_[row] != 0; }
     std::size_t free_voxels() const { return free_voxels_; }
 
+    /// Calls work(cell) for every free voxel, in parallel where that pays.
+    template <class Work>
+    void for_free(const WaterGrid& grid, Work work) const {
+        grid.for_rows([&](std::size_t row) { visit_free(grid, row, work); });
+    }
+    /// Calls visit(cell) for every free voxel, one after the other.
+    template <class Visit>
+    void for_each_free(const WaterGrid& grid, Visit visit) const {
+        for (std::size_t row = 0; row < grid.rows(); ++row) visit_free(grid, row, visit);
+    }
+
 private:
+    template <class Visit>
+    void visit_free(const WaterGrid& grid, std::size_t row, Visit& visit) const {
+        grid.for_cells_of(row, [&](std::size_t cell) {
+            if (free(cell)) visit(cell);
+        });
+    }
+
     std::vector<std::uint8_t> bits_;
     std::vector<std::uint8_t> plain_;
     std::size_t free_voxels_ = 0;

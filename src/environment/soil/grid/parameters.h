@@ -1,92 +1,53 @@
-// What a scene says about soil water, read and checked.
+// What a scene says about the soil of any process: where it lies, what stands in it, how it answers queries.
 #pragma once
 
 #include "espalier/environment/environment_process.h"
 #include "espalier/environment/shape.h"
 
-#include <array>
-#include <limits>
+#include "environment/soil/grid/grid.h"
+
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace espalier::environment {
 
-enum class WaterMode { diffusion, relaxation };
-
-/// What contents and rates may be: every sum stays finite.
-inline const Range content_range = Range::between(0, 1e30);
-
-/// A side of the domain: closed, or held at a content on its face.
-struct WaterSide {
-    bool fixed = false;
-    double content = 0;
-};
-
-struct WaterLayer {
-    double bottom = 0, top = 0;
-    glm::dvec3 diffusion{0};  ///< m2 per time unit, along x, y, z
-    glm::dvec3 gravity{0, -1, 0};
-    std::optional<double> initial;
-};
-
-/// A part of the soil that begins with another content; outside the shape it fades over `edge` metres.
-struct WaterRegion {
-    std::shared_ptr<const Shape> shape;
-    double content = 0;
-    double edge = 0;
-};
-
-/// A part of the soil that is held at a content, or gains `rate` per time unit.
-struct WaterSource {
-    std::shared_ptr<const Shape> shape;
-    std::optional<double> hold;
-    double rate = 0;
-    Place place;
-};
-
-struct WaterParameters {
-    WaterMode mode = WaterMode::diffusion;
+/// Domain, voxels, and the solids that nothing passes.
+struct SoilSpace {
     Box domain;
     double voxel = 0;
     bool flat = false;  ///< two-dimensional
-    std::string unit;
-    double initial = 0;
-    double porosity = std::numeric_limits<double>::infinity();  ///< content of a voxel that is full
-    bool steady = false;                                        ///< begin at the steady state of diffusion
-    glm::dvec3 diffusion{0};
-    int max_substeps = 0;
-    int sweeps = 0;
-    double relaxation = 0;
-    double tolerance = 0;
-    std::array<WaterSide, 6> sides;  ///< -x, +x, -y, +y, -z, +z
-    std::vector<WaterLayer> layers;
-    std::vector<WaterRegion> regions;
-    std::vector<WaterSource> sources;
     std::vector<std::shared_ptr<const Shape>> obstacles;
     std::string obstacle_field, container_field;  ///< distance fields of other processes; empty: none
-    bool depletion = true;
-    double amount = 1;  ///< amount of one voxel full of content 1
-    Place amount_place;
-    double range = 1;
-    double gradient_length = 0;
+    Place place, voxel_place;
 
-    Place voxel_place;
-    Place settings_place;
+    /// Throws UserError.
+    static SoilSpace read(const Settings& settings, const EnvironmentContext& context);
+    WaterGrid grid() const { return {domain, voxel, flat}; }
+    /// The same for a process that takes so many bytes a voxel. Throws UserError where it may not take as many.
+    WaterGrid affordable_grid(const EnvironmentContext& context, double bytes_per_voxel) const;
 };
 
-/// What both models have: domain, voxels, obstacles; then how queries are answered. Throws UserError.
-void read_water_space(Settings& settings, const EnvironmentContext& context, WaterParameters& parameters);
-void read_water_queries(Settings& settings, WaterParameters& parameters, bool depletion = true);
+/// How water is sensed and taken.
+struct SoilQuerying {
+    bool depletion = true;
+    double amount = 1;  ///< amount of one voxel full of content 1
+    double range = 1;
+    double gradient_length = 0;
+    Place amount_place;
 
-/// Of the linear model. Throws UserError.
-WaterParameters read_water_parameters(Settings& settings, const EnvironmentContext& context);
+    /// Throws UserError.
+    static SoilQuerying read(const Settings& settings, double voxel, bool depletion = true);
+    const char* unit() const { return amount == 1 ? "voxels" : "m3"; }
+};
 
-/// The layer at height y, or null.
-const WaterLayer* layer_at(const WaterParameters& parameters, double y);
+/// Heights of a layer, m: the keys bottom and top. Throws UserError where they do not rise.
+struct LayerHeights {
+    double bottom = 0, top = 0;
+    static LayerHeights read(const Settings& table, double bottom, double top);
+};
 
-/// What `espalier list` prints for process soil-water.
-extern const char* const soil_water_help;
+/// The cells of the voxels whose centres are in a source. Throws UserError if there are none.
+std::vector<std::size_t> cells_of_source(const WaterGrid& grid, const Shape& shape, const Place& place);
 
 }  // namespace espalier::environment

@@ -5,7 +5,6 @@
 #include "base/parallel.h"
 
 #include <openvdb/tools/Interpolation.h>
-#include <tbb/blocked_range.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,10 +20,8 @@ double sample(const FieldGrid& field, const glm::dvec3& point) {
 
 }  // namespace
 
-WaterSolids::WaterSolids(const WaterParameters& parameters)
-    : obstacles_(parameters.obstacles),
-      obstacle_name_(parameters.obstacle_field),
-      container_name_(parameters.container_field) {}
+WaterSolids::WaterSolids(const SoilSpace& space)
+    : obstacles_(space.obstacles), obstacle_name_(space.obstacle_field), container_name_(space.container_field) {}
 
 bool WaterSolids::look(const Fields& fields) {
     bool changed = false;
@@ -78,14 +75,10 @@ bool WaterSolids::blocks(const glm::dvec3& from, const glm::dvec3& direction, do
 std::vector<std::uint8_t> WaterSolids::free_voxels(const WaterGrid& grid) const {
     std::vector<std::uint8_t> free(grid.voxels(), 1);
     if (!any()) return free;
-    const glm::ivec3 size = grid.size();
-    for_in_parallel(tbb::blocked_range<std::size_t>(0, grid.rows()), [&](const auto& range) {
-        for (std::size_t row = range.begin(); row != range.end(); ++row) {
-            const int y = grid.y_of(row), z = grid.z_of(row);
-            for (int x = 0; x < size.x; ++x) {
-                free[row * size.x + x] = clearance(grid.centre({x, y, z})) > 0;
-            }
-        }
+    for_in_parallel(std::size_t{0}, grid.rows(), [&](std::size_t row) {
+        std::size_t voxel = row * grid.size().x;
+        grid.for_cells_of(row,
+                          [&](std::size_t cell) { free[voxel++] = clearance(grid.centre(grid.voxel_of(cell))) > 0; });
     });
     return free;
 }

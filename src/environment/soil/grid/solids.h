@@ -12,7 +12,7 @@ namespace espalier::environment {
 
 class WaterSolids {
 public:
-    explicit WaterSolids(const WaterParameters& parameters);
+    explicit WaterSolids(const SoilSpace& space);
 
     /// Takes up the distance fields as they are now; true if one of them is another than before.
     /// Throws UserError if there is none of that name.

@@ -58,13 +58,18 @@ ShareResult share_water(const WaterGrid& grid, std::span<const WaterWish> wishes
     return result;
 }
 
-double obtain_alone(const WaterGrid& grid, const WaterWish& wish, const WaterBrick& contents) {
-    std::array<double, 8> shares{};
-    for (std::size_t corner = 0; corner < 8; ++corner) {
-        const double demand = wish.amount * wish.stencil.weight[corner];
-        if (demand > 0) shares[corner] = std::min(demand, contents[grid.cell(wish.stencil.voxel[corner])]);
+ShareResult lend_water(const WaterGrid& grid, std::span<const WaterWish> wishes, const WaterBrick& contents) {
+    ShareResult result;
+    result.obtained.reserve(wishes.size());
+    for (const WaterWish& wish : wishes) {
+        std::array<double, 8> shares{};
+        for (std::size_t corner = 0; corner < 8; ++corner) {
+            const double demand = wish.amount * wish.stencil.weight[corner];
+            if (demand > 0) shares[corner] = std::min(demand, contents[grid.cell(wish.stencil.voxel[corner])]);
+        }
+        result.obtained.push_back(sum_in_pairs(shares));
     }
-    return sum_in_pairs(shares);
+    return result;
 }
 
 }  // namespace espalier::environment

@@ -24,6 +24,6 @@ struct ShareResult {
 ShareResult share_water(const WaterGrid& grid, std::span<const WaterWish> wishes, WaterBrick& contents);
 
 /// What each wish would obtain alone; nothing is taken.
-double obtain_alone(const WaterGrid& grid, const WaterWish& wish, const WaterBrick& contents);
+ShareResult lend_water(const WaterGrid& grid, std::span<const WaterWish> wishes, const WaterBrick& contents);
 
 }  // namespace espalier::environment

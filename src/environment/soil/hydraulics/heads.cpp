@@ -82,4 +82,14 @@ std::vector<double> read_heads(const Settings& settings, const std::string& key,
     return heads;
 }
 
+TimeSeries read_head_series(const Settings& settings, const std::string& key, Range range) {
+    if (!settings.is_table(key)) return TimeSeries(read_head(settings, key, range));
+    const Settings table = settings.table(key);
+    return read_head_column(table, table.text("column"), range);
+}
+
+TimeSeries read_head_column(const Settings& table, const std::string& column, Range range) {
+    return TimeSeries::column(table, column, range, head_unit(table.text_or("unit", "cm"), table.place("unit")));
+}
+
 }  // namespace espalier::environment

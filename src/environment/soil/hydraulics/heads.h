@@ -3,6 +3,8 @@
 
 #include "espalier/base/settings.h"
 
+#include "environment/given/weather/time_series.h"
+
 #include <functional>
 #include <string>
 #include <vector>
@@ -23,5 +25,10 @@ double read_head_or(const Settings& settings, const std::string& key, double fal
 
 /// A list of numbers in cm, or of texts with units. Throws UserError.
 std::vector<double> read_heads(const Settings& settings, const std::string& key, Range range);
+
+/// A head that changes with time: as read_head, or a column of a file, with its unit: { file, column, unit = "hPa" }.
+TimeSeries read_head_series(const Settings& settings, const std::string& key, Range range);
+/// The same of the column of this name of the file that `table` names.
+TimeSeries read_head_column(const Settings& table, const std::string& column, Range range);
 
 }  // namespace espalier::environment

@@ -1,10 +1,8 @@
 #include "environment/soil/linear/diffusion.h"
 
-#include "base/parallel.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
 
 #include <algorithm>
 #include <cmath>
@@ -73,22 +71,14 @@ double sum_along(int n, double k, const WaterSide& lower, const WaterSide& upper
     return std::max(k + std::max(at_lower, at_upper), n > 2 ? 2 * k : 0);
 }
 
-template <class RowWork>
-void for_rows(const WaterGrid& grid, RowWork work) {
-    const std::size_t grain = std::max<std::size_t>(1, 16384 / grid.stride());
-    for_in_parallel(tbb::blocked_range<std::size_t>(0, grid.rows(), grain), [&](const auto& range) {
-        for (std::size_t row = range.begin(); row != range.end(); ++row) work(row);
-    });
-}
-
 }  // namespace
 
 WaterDiffusion::WaterDiffusion(const WaterGrid& grid, const WaterParameters& parameters)
-    : grid_(grid), sides_(parameters.sides), max_substeps_(parameters.max_substeps), place_(parameters.settings_place) {
+    : grid_(grid), sides_(parameters.sides), max_substeps_(parameters.max_substeps), place_(parameters.space.place) {
     const int height = grid.size().y;
     const double h2 = grid.voxel() * grid.voxel();
     for (int y = 0; y < height; ++y) {
-        const WaterLayer* layer = layer_at(parameters, grid.centre({0, y, 0}).y);
+        const WaterLayer* layer = parameters.layer_at(grid.centre({0, y, 0}).y);
         const glm::dvec3 d = layer ? layer->diffusion : parameters.diffusion;
         x_.push_back(d.x / h2);
         y_.push_back(d.y / h2);
@@ -121,7 +111,7 @@ int WaterDiffusion::substeps(double dt) const {
 
 double WaterDiffusion::sweep(const WaterFaces& faces, WaterBrick& from, WaterBrick& to, double dt) {
     const int n = grid_.size().x;
-    for_rows(grid_, [&](std::size_t row) {
+    grid_.for_rows([&](std::size_t row) {
         const int y = grid_.y_of(row);
         const Conductances k{x_[y] * dt, down_[y] * dt, up_[y] * dt, z_[y] * dt};
         const Rows rows = rows_around(grid_, from, row);
@@ -196,7 +186,7 @@ WaterDiffusion::AcrossSides WaterDiffusion::across_sides(const glm::ivec3& voxel
 double relaxation_sweep(const WaterGrid& grid, const WaterFaces& faces, double w, WaterBrick& from, WaterBrick& to) {
     const glm::ivec3 size = grid.size();
     std::vector<double> largest(grid.rows(), 0);
-    for_rows(grid, [&](std::size_t row) {
+    grid.for_rows([&](std::size_t row) {
         const int y = grid.y_of(row), z = grid.z_of(row);
         const Rows rows = rows_around(grid, from, row);
         const std::uint8_t* bits = faces.row(grid.row_begin(row));

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "environment/soil/grid/grid.h"
-#include "environment/soil/grid/parameters.h"
+#include "environment/soil/linear/parameters.h"
 
 #include <vector>
 

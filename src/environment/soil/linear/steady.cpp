@@ -71,17 +71,11 @@ private:
 void SteadyState::settle() {
     seen_.assign(grid_.cells(), 0);
     row_of_cell_.assign(grid_.cells(), not_numbered);
-    const glm::ivec3 size = grid_.size();
-    for (int z = 0; z < size.z; ++z) {
-        for (int y = 0; y < size.y; ++y) {
-            for (int x = 0; x < size.x; ++x) {
-                const std::size_t cell = grid_.cell({x, y, z});
-                if (!faces_.free(cell) || forcing_.held[cell] || seen_[cell]) continue;
-                const Part part = part_of({x, y, z});
-                part.fixed ? number(part) : level(part);
-            }
-        }
-    }
+    faces_.for_each_free(grid_, [&](std::size_t cell) {
+        if (forcing_.held[cell] || seen_[cell]) return;
+        const Part part = part_of(grid_.voxel_of(cell));
+        part.fixed ? number(part) : level(part);
+    });
     if (!unknowns_.empty()) solve();
 }
 

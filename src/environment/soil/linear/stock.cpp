@@ -2,11 +2,10 @@
 
 #include "espalier/base/stop.h"
 
-#include "base/parallel.h"
+#include "base/bytes.h"
 #include "environment/soil/linear/steady.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,41 +17,8 @@
 namespace espalier::environment {
 namespace {
 
-template <class Visit>
-void for_voxels(const WaterGrid& grid, Visit visit) {
-    const glm::ivec3 size = grid.size();
-    for_in_parallel(tbb::blocked_range<std::size_t>(0, grid.rows()), [&](const auto& range) {
-        for (std::size_t row = range.begin(); row != range.end(); ++row) {
-            const int y = grid.y_of(row), z = grid.z_of(row);
-            for (int x = 0; x < size.x; ++x) visit(grid.row_begin(row) + x, glm::ivec3(x, y, z));
-        }
-    });
-}
-
-std::vector<std::size_t> cells_inside(const WaterGrid& grid, const Shape& shape) {
-    glm::ivec3 first{0}, last = grid.size() - 1;
-    if (const std::optional<Box> bounds = shape.bounds()) {
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto voxel_at = [&](double x) {
-                return std::clamp((x - grid.lower()[axis]) / grid.voxel(), -2.0, grid.size()[axis] + 2.0);
-            };
-            first[axis] = std::max(first[axis], static_cast<int>(std::floor(voxel_at(bounds->lower[axis]))) - 1);
-            last[axis] = std::min(last[axis], static_cast<int>(std::ceil(voxel_at(bounds->upper[axis]))) + 1);
-        }
-    }
-    std::vector<std::size_t> cells;
-    for (int z = first.z; z <= last.z; ++z) {
-        for (int y = first.y; y <= last.y; ++y) {
-            for (int x = first.x; x <= last.x; ++x) {
-                if (shape.inside(grid.centre({x, y, z}))) cells.push_back(grid.cell({x, y, z}));
-            }
-        }
-    }
-    return cells;
-}
-
 double initial_content(const WaterParameters& parameters, const glm::dvec3& point) {
-    const WaterLayer* layer = layer_at(parameters, point.y);
+    const WaterLayer* layer = parameters.layer_at(point.y);
     double content = layer && layer->initial ? *layer->initial : parameters.initial;
     for (const WaterRegion& region : parameters.regions) {
         const double distance = region.shape->distance(point);
@@ -86,18 +52,15 @@ WaterStock::WaterStock(const WaterGrid& grid, const WaterParameters& parameters,
 void WaterStock::paint() {
     std::fill(spare_.begin(), spare_.end(), 0);
     std::fill(contents_.begin(), contents_.end(), 0);
-    for_voxels(grid_, [&](std::size_t cell, const glm::ivec3& voxel) {
-        if (faces_.free(cell)) contents_[cell] = initial_content(parameters_, grid_.centre(voxel));
+    faces_.for_free(grid_, [&](std::size_t cell) {
+        contents_[cell] = initial_content(parameters_, grid_.centre(grid_.voxel_of(cell)));
     });
 }
 
 void WaterStock::find_sources() {
     sources_.clear();
     for (const WaterSource& source : parameters_.sources) {
-        const std::vector<std::size_t> inside = cells_inside(grid_, *source.shape);
-        if (inside.empty()) {
-            throw UserError(source.place, "this source holds no voxel's centre: make it larger or move it");
-        }
+        const std::vector<std::size_t> inside = cells_of_source(grid_, *source.shape, source.place);
         sources_.push_back({source, {}});
         std::copy_if(inside.begin(), inside.end(), std::back_inserter(sources_.back().cells),
                      [&](std::size_t cell) { return faces_.free(cell); });
@@ -113,14 +76,11 @@ void WaterStock::set_source(std::size_t source, double value) {
 void WaterStock::set_free(std::vector<std::uint8_t> free) {
     free_ = std::move(free);
     faces_ = WaterFaces(grid_, free_);
-    for (std::size_t row = 0; row < grid_.rows(); ++row) {
-        const std::size_t begin = grid_.row_begin(row);
-        for (std::size_t cell = begin; cell < begin + grid_.size().x; ++cell) {
-            if (faces_.free(cell)) continue;
-            balance_.displaced += contents_[cell];
-            contents_[cell] = 0;
-        }
-    }
+    grid_.for_each_cell([&](std::size_t cell) {
+        if (faces_.free(cell)) return;
+        balance_.displaced += contents_[cell];
+        contents_[cell] = 0;
+    });
     find_sources();
 }
 
@@ -205,19 +165,6 @@ void WaterStock::relax(double dt) {
     }
 }
 
-std::vector<double> WaterStock::share(std::span<const WaterWish> wishes) {
-    ShareResult result = share_water(grid_, wishes, contents_);
-    balance_.drunk += result.taken;
-    return std::move(result.obtained);
-}
-
-std::vector<double> WaterStock::lend(std::span<const WaterWish> wishes) const {
-    std::vector<double> obtained;
-    obtained.reserve(wishes.size());
-    for (const WaterWish& wish : wishes) obtained.push_back(obtain_alone(grid_, wish, contents_));
-    return obtained;
-}
-
 void WaterStock::measure() {
     struct Figures {
         double sum = 0;
@@ -225,18 +172,13 @@ void WaterStock::measure() {
         double maximum = -std::numeric_limits<double>::infinity();
     };
     std::vector<Figures> rows(grid_.rows());
-    for_in_parallel(tbb::blocked_range<std::size_t>(0, grid_.rows(), 64), [&](const auto& range) {
-        for (std::size_t row = range.begin(); row != range.end(); ++row) {
-            const std::size_t begin = grid_.row_begin(row);
-            Figures figures;
-            for (std::size_t cell = begin; cell < begin + grid_.size().x; ++cell) {
-                if (!faces_.free(cell)) continue;
-                figures.sum += contents_[cell];
-                figures.minimum = std::min(figures.minimum, contents_[cell]);
-                figures.maximum = std::max(figures.maximum, contents_[cell]);
-            }
-            rows[row] = figures;
-        }
+    grid_.for_rows([&](std::size_t row) {
+        grid_.for_cells_of(row, [&](std::size_t cell) {
+            if (!faces_.free(cell)) return;
+            rows[row].sum += contents_[cell];
+            rows[row].minimum = std::min(rows[row].minimum, contents_[cell]);
+            rows[row].maximum = std::max(rows[row].maximum, contents_[cell]);
+        });
     });
     Figures all;
     for (const Figures& row : rows) {
@@ -251,35 +193,23 @@ void WaterStock::measure() {
 }
 
 void WaterStock::save(std::ostream& out) const {
-    const glm::ivec3 size = grid_.size();
-    out.write(reinterpret_cast<const char*>(&size), sizeof size);
-    out.write(reinterpret_cast<const char*>(&balance_), sizeof balance_);
+    put(out, grid_.size());
+    put(out, balance_);
     out.write(reinterpret_cast<const char*>(free_.data()), static_cast<std::streamsize>(free_.size()));
     for (std::size_t row = 0; row < grid_.rows(); ++row) {
-        write_doubles(out, {contents_.data() + grid_.row_begin(row), std::size_t(size.x)});
+        write_doubles(out, {contents_.data() + grid_.row_begin(row), std::size_t(grid_.size().x)});
     }
 }
 
 void WaterStock::restore(std::istream& in) {
-    glm::ivec3 size{0};
-    in.read(reinterpret_cast<char*>(&size), sizeof size);
-    if (!in || size != grid_.size()) throw RunError("the checkpoint's soil has another grid than the scene's");
-    in.read(reinterpret_cast<char*>(&balance_), sizeof balance_);
+    if (get<glm::ivec3>(in) != grid_.size()) throw RunError("the checkpoint's soil has another grid than the scene's");
+    balance_ = get<WaterBalance>(in);
     in.read(reinterpret_cast<char*>(free_.data()), static_cast<std::streamsize>(free_.size()));
     faces_ = WaterFaces(grid_, free_);
     for (std::size_t row = 0; row < grid_.rows(); ++row) {
-        read_doubles(in, {contents_.data() + grid_.row_begin(row), std::size_t(size.x)});
+        read_doubles(in, {contents_.data() + grid_.row_begin(row), std::size_t(grid_.size().x)});
     }
     find_sources();
-}
-
-void write_doubles(std::ostream& out, std::span<const double> values) {
-    out.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size_bytes()));
-}
-
-void read_doubles(std::istream& in, std::span<double> values) {
-    in.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(values.size_bytes()));
-    if (!in) throw RunError("the checkpoint ends in the middle of the soil");
 }
 
 }  // namespace espalier::environment

@@ -2,12 +2,10 @@
 #pragma once
 
 #include "environment/soil/grid/grid.h"
-#include "environment/soil/grid/parameters.h"
-#include "environment/soil/grid/uptake.h"
 #include "environment/soil/linear/diffusion.h"
 
+#include <functional>
 #include <iosfwd>
-#include <span>
 #include <vector>
 
 namespace espalier::environment {
@@ -50,10 +48,8 @@ public:
     void diffuse(WaterDiffusion& diffusion, double dt);
     void relax(double dt);
 
-    /// Takes what the wishes obtain together.
-    std::vector<double> share(std::span<const WaterWish> wishes);
-    /// What each obtains alone; takes nothing.
-    std::vector<double> lend(std::span<const WaterWish> wishes) const;
+    /// Lets `take` take from the contents; it returns how much, in content times voxels.
+    void drink(const std::function<double(WaterBrick&)>& take) { balance_.drunk += take(contents_); }
 
     /// Brings total, minimum and maximum of the balance up to date.
     void measure();
@@ -81,9 +77,5 @@ private:
     std::vector<Source> sources_;
     WaterBalance balance_;
 };
-
-void write_doubles(std::ostream& out, std::span<const double> values);
-/// Throws RunError if the stream ends early.
-void read_doubles(std::istream& in, std::span<double> values);
 
 }  // namespace espalier::environment

@@ -14,7 +14,7 @@ namespace {
 
 bool in_layer(const SoilLayer& layer, const glm::dvec3& point) {
     const double y = point.y - layer.rise * point.x;
-    return y >= layer.bottom && y < layer.top;
+    return y >= layer.heights.bottom && y < layer.heights.top;
 }
 
 /// The kind that a field of whole numbers says, the value of the nearest voxel.
@@ -25,7 +25,7 @@ std::size_t kind_in_field(const SoilParameters& soil, const FieldGrid& map, cons
         return soil.map_kinds[static_cast<std::size_t>(value)];
     }
     throw UserError(
-        soil.water.settings_place,
+        soil.space.place,
         fmt::format("the map '{}' is {} at ({:.3g}, {:.3g}, {:.3g}), but 'soils' has {} names, "
                     "counted from 0",
                     soil.map_field, format_general(value), point.x, point.y, point.z, soil.map_kinds.size()));
@@ -53,24 +53,20 @@ SoilLayout::SoilLayout(const WaterGrid& grid, const SoilParameters& parameters,
 void SoilLayout::place_kinds(const Fields& fields) {
     const FieldGrid* const map =
         parameters_.map_field.empty() ? nullptr : fields.need(parameters_.map_field).grid.get();
-    const glm::ivec3 size = grid_.size();
-    for (std::size_t row = 0; row < grid_.rows(); ++row) {
-        for (int x = 0; x < size.x; ++x) {
-            const std::size_t cell = grid_.row_begin(row) + x;
-            const glm::dvec3 point = grid_.centre({x, grid_.y_of(row), grid_.z_of(row)});
-            const Box box{grid_.lower(), grid_.upper()};
-            std::optional<std::size_t> kind;
-            if (map) kind = kind_in_field(parameters_, *map, point);
-            if (!parameters_.map_file.empty()) kind = parameters_.map_kinds[parameters_.map_file.at(point, box)];
-            for (const SoilLayer& layer : parameters_.layers) {
-                if (layer.kind && in_layer(layer, point)) kind = layer.kind;
-            }
-            for (const SoilRegion& region : parameters_.regions) {
-                if (region.kind && region.shape->inside(point)) kind = region.kind;
-            }
-            if (kind) kind_of_[cell] = static_cast<std::uint8_t>(*kind);
+    const Box box{grid_.lower(), grid_.upper()};
+    grid_.for_each_cell([&](std::size_t cell) {
+        const glm::dvec3 point = grid_.centre(grid_.voxel_of(cell));
+        std::optional<std::size_t> kind;
+        if (map) kind = kind_in_field(parameters_, *map, point);
+        if (!parameters_.map_file.empty()) kind = parameters_.map_kinds[parameters_.map_file.at(point, box)];
+        for (const SoilLayer& layer : parameters_.layers) {
+            if (layer.kind && in_layer(layer, point)) kind = layer.kind;
         }
-    }
+        for (const SoilRegion& region : parameters_.regions) {
+            if (region.kind && region.shape->inside(point)) kind = region.kind;
+        }
+        if (kind) kind_of_[cell] = static_cast<std::uint8_t>(*kind);
+    });
 }
 
 const SoilBeginning& SoilLayout::beginning(const glm::dvec3& point) const {

@@ -49,7 +49,19 @@ public:
 
     /// Calls work(row) for every row, in parallel where that pays.
     template <class Work>
-    void for_rows(Work work) const;
+    void for_rows(Work work) const {
+        grid_.for_rows(work);
+    }
+    /// Calls work(cell) for every free voxel, in parallel where that pays.
+    template <class Work>
+    void for_free(Work work) const {
+        faces_.for_free(grid_, work);
+    }
+    /// Calls visit(cell) for every free voxel, one after the other.
+    template <class Visit>
+    void for_each_free(Visit visit) const {
+        faces_.for_each_free(grid_, visit);
+    }
 
 private:
     void place_kinds(const Fields& fields);
@@ -62,23 +74,5 @@ private:
     double edge_;
     bool joined_x_, joined_z_;
 };
-
-}  // namespace espalier::environment
-
-#include "base/parallel.h"
-
-namespace espalier::environment {
-
-template <class Work>
-void SoilLayout::for_rows(Work work) const {
-    const std::size_t grain = std::max<std::size_t>(1, 4096 / grid_.stride());
-    if (grid_.rows() <= grain) {
-        for (std::size_t row = 0; row < grid_.rows(); ++row) work(row);
-        return;
-    }
-    for_in_parallel(tbb::blocked_range<std::size_t>(0, grid_.rows(), grain), [&](const auto& range) {
-        for (std::size_t row = range.begin(); row != range.end(); ++row) work(row);
-    });
-}
 
 }  // namespace espalier::environment

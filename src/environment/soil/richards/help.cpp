@@ -42,8 +42,8 @@ boundaries     closed; what happens at the sides of the domain, in a table
     bottom     "no-flux" (the default), "free-drainage", "seepage", { table } in m, { head } in cm, or { flux } in mm/d into
                the soil
     sides      "closed" (the default) or "periodic". Instead of a number, rain, evaporation, flux, head and table may be
-               { file = "weather.csv", column = "rain" }, with unit = "hPa" for heads; the first column is the day from the
-               beginning of the run
+               { file = "weather.csv", column = "rain" }, with unit = "hPa" for heads. The first column is the day from the
+               beginning of the run, or a date (2025-06-21 13:30; the run begins at the first one's midnight), or time (h)
     left       "closed" (the default), { table }, the height of a water table at this side, m, or { head } in cm; so have right,
                back and front
 outside        "stop growing", or "ignore", "error"; what a root does, for processes of roots, that leaves the soil through a side or

@@ -1,6 +1,7 @@
 #include "environment/soil/richards/movement.h"
 
-#include "environment/soil/linear/stock.h"
+#include "base/bytes.h"
+#include "environment/soil/richards/fluxes.h"
 
 namespace espalier::environment {
 
@@ -10,6 +11,23 @@ void SoilMovement::resize(const WaterGrid& grid, bool has_side_heads) {
     uptake.assign(grid.cells(), 0.0);
     const std::size_t columns = std::size_t(grid.size().x) * grid.size().z;
     for (std::vector<double>* side : {&floor, &surface}) side->assign(columns, 0.0);
+}
+
+void SoilMovement::pass(double begin, double span, double weight, const SoilLayout& layout, const SoilFluxes& fluxes,
+                        const WaterBrick& taken) {
+    day = begin;
+    days = span;
+    layout.for_rows([&](std::size_t row) {
+        layout.grid().for_cells_of(row, [&](std::size_t c) {
+            for (int axis = 0; axis < 3; ++axis) bring_on(flux[axis][c], fluxes.faces()[axis].flux[c], weight);
+            bring_on(uptake[c], taken[c], weight);
+            if (fluxes.has_side_heads()) bring_on(sides[c], fluxes.through_sides(c).flux, weight);
+        });
+    });
+    for (std::size_t column = 0; column < floor.size(); ++column) {
+        bring_on(floor[column], fluxes.floor()[column].flux, weight);
+        bring_on(surface[column], fluxes.surface()[column].into.flux, weight);
+    }
 }
 
 void SoilMovement::save(std::ostream& out) const {

@@ -11,6 +11,8 @@
 
 namespace espalier::environment {
 
+class SoilFluxes;
+
 /// Mean rates over a substep: with them the contents change by exactly what passes the faces, but for the water that
 /// sources bring.
 struct SoilMovement {
@@ -22,6 +24,10 @@ struct SoilMovement {
     WaterBrick sides;                ///< into voxels at sides of given heads, cm/d; empty where there are none
 
     void resize(const WaterGrid& grid, bool has_side_heads = false);
+    /// A substep of `span` days from `begin` on has passed, of whose mean rates these are the part `weight`; the rest
+    /// are the rates before.
+    void pass(double begin, double span, double weight, const SoilLayout& layout, const SoilFluxes& fluxes,
+              const WaterBrick& taken);
     void save(std::ostream& out) const;
     void restore(std::istream& in);
 };

@@ -61,7 +61,7 @@ MeasuredHeads read_measured(const Settings& settings) {
     const std::vector<std::string> columns = table.texts_or("columns", {});
     measured.heights = read_heights(table, columns.size());
     for (const std::string& column : columns) {
-        measured.heads.push_back(SoilSeries::read_head_column(table, column, head_range));
+        measured.heads.push_back(read_head_column(table, column, head_range));
     }
     if (measured.heights.front() > measured.heights.back()) {
         std::reverse(measured.heights.begin(), measured.heights.end());
@@ -88,22 +88,22 @@ std::optional<SoilBeginning> read_beginning(const Settings& settings, const std:
 }
 
 void refuse_overlap(const std::vector<SoilLayer>& layers, const SoilLayer& layer, const Place& place) {
+    const auto [bottom, top] = layer.heights;
     for (const SoilLayer& other : layers) {
-        if (layer.rise != other.rise || layer.top <= other.bottom + 1e-9 || other.top <= layer.bottom + 1e-9) continue;
-        throw UserError(place, fmt::format("this layer, from {} to {} m, overlaps the one from {} to {} m",
-                                           format_general(layer.bottom), format_general(layer.top),
-                                           format_general(other.bottom), format_general(other.top)));
+        const auto [other_bottom, other_top] = other.heights;
+        if (layer.rise != other.rise || top <= other_bottom + 1e-9 || other_top <= bottom + 1e-9) continue;
+        throw UserError(
+            place, fmt::format("this layer, from {} to {} m, overlaps the one from {} to {} m", format_general(bottom),
+                               format_general(top), format_general(other_bottom), format_general(other_top)));
     }
 }
 
 void read_layers(const Settings& settings, const Settings& named, SoilParameters& parameters) {
     for (const Settings& table : settings.tables("layers")) {
         SoilLayer layer;
-        layer.bottom = table.number_or("bottom", parameters.water.domain.lower.y - parameters.water.voxel);
-        layer.top = table.number_or("top", parameters.water.domain.upper.y + parameters.water.voxel);
-        if (layer.bottom >= layer.top) {
-            throw UserError(table.place("top"), "a layer's 'top' must be higher than its 'bottom' (y points up)");
-        }
+        const SoilSpace& space = parameters.space;
+        layer.heights =
+            LayerHeights::read(table, space.domain.lower.y - space.voxel, space.domain.upper.y + space.voxel);
         layer.rise = math::tan(table.number_or("slope", 0, Range::between(-80, 80)) * std::numbers::pi / 180);
         if (table.has("soil")) layer.kind = read_soil_kind(table, "soil", named, parameters);
         layer.beginning = read_beginning(table, "initial");
@@ -149,7 +149,7 @@ void read_weather(const Settings& top, const std::shared_ptr<const Weather>& wea
                                              "in its table or here",
                                              top.text("weather"))});
         }
-        surface.rain = SoilSeries::of([weather](double day) { return weather->rain_rate(day); }, next_change);
+        surface.rain = TimeSeries::of([weather](double day) { return weather->rain_rate(day); }, next_change);
     }
     if (top.has("evaporation")) return;
     if (!weather->has_radiation()) {
@@ -158,7 +158,7 @@ void read_weather(const Settings& top, const std::shared_ptr<const Weather>& wea
                                     "or a file with a column 'global (W m-2)', or write evaporation = ... (mm/d) here",
                                     top.text("weather")));
     }
-    surface.evaporation = SoilSeries::of([weather](double day) { return weather->evaporation_rate(day); }, next_change);
+    surface.evaporation = TimeSeries::of([weather](double day) { return weather->evaporation_rate(day); }, next_change);
 }
 
 /// Null beside a head or a flux, where rain is a key that nothing reads, too.
@@ -178,14 +178,14 @@ void read_surface(const Settings& boundaries, const std::shared_ptr<const Weathe
     const Settings top = boundaries.table("top");
     if (top.has("head")) {
         surface.kind = SoilSurface::Kind::head;
-        surface.head = SoilSeries::read_head(top, "head", head_range);
+        surface.head = read_head_series(top, "head", head_range);
     } else if (top.has("flux")) {
         surface.kind = SoilSurface::Kind::flux;
-        surface.flux = SoilSeries::read(top, "flux", 0, Range::between(-1e5, 1e5));
+        surface.flux = TimeSeries::read(top, "flux", 0, Range::between(-1e5, 1e5));
     } else {
         surface.kind = SoilSurface::Kind::atmosphere;
-        surface.rain = SoilSeries::read(top, "rain", 0, rate_range);
-        surface.evaporation = SoilSeries::read(top, "evaporation", 0, rate_range);
+        surface.rain = TimeSeries::read(top, "rain", 0, rate_range);
+        surface.evaporation = TimeSeries::read(top, "evaporation", 0, rate_range);
         if (weather) read_weather(top, weather, warnings, surface);
         surface.dry_limit = read_head_or(top, "dry_limit", -10000, Range::between(-1e6, -1));
         surface.ponding = top.number_or("ponding", 0, rate_range);
@@ -202,7 +202,7 @@ void read_floor(const Settings& boundaries, SoilFloor& floor) {
     const Settings table = boundaries.table("bottom");
     if (table.has("flux")) {
         floor.kind = SoilFloor::Kind::flux;
-        floor.flux = SoilSeries::read(table, "flux", 0, Range::between(-1e5, 1e5));
+        floor.flux = TimeSeries::read(table, "flux", 0, Range::between(-1e5, 1e5));
         return;
     }
     floor.kind = SoilFloor::Kind::head;
@@ -213,7 +213,7 @@ void read_floor(const Settings& boundaries, SoilFloor& floor) {
             throw UserError(table.place(),
                             "give 'head' (cm), 'table' (m, the height of the water table) or 'flux' (mm/d)");
         }
-        floor.head = SoilSeries::read_head(table, "head", head_range);
+        floor.head = read_head_series(table, "head", head_range);
     }
 }
 
@@ -237,7 +237,7 @@ void read_sides(const Settings& boundaries, SoilParameters& parameters) {
         }
         const Place place = boundaries.place(name);
         if (parameters.periodic) throw UserError(place, "a side cannot have a head where sides are periodic");
-        if (parameters.water.flat && side >= 2) {
+        if (parameters.space.flat && side >= 2) {
             throw UserError(place, fmt::format("a two-dimensional soil has no side '{}'", name));
         }
         const Settings table = boundaries.table(name);
@@ -246,8 +246,8 @@ void read_sides(const Settings& boundaries, SoilParameters& parameters) {
         }
         const bool has_table = table.has("table");
         parameters.sides[side] = {has_table ? SoilSide::Kind::table : SoilSide::Kind::head,
-                                  has_table ? SoilSeries::read(table, "table", 0, Range::between(-1e4, 1e4))
-                                            : SoilSeries::read_head(table, "head", head_range)};
+                                  has_table ? TimeSeries::read(table, "table", 0, Range::between(-1e4, 1e4))
+                                            : read_head_series(table, "head", head_range)};
     }
 }
 
@@ -282,8 +282,7 @@ SoilParameters read_soil_parameters(Settings& settings, const EnvironmentContext
     SoilParameters parameters;
     const std::shared_ptr<const Weather> weather = is_still ? nullptr : weather_above(settings, fields);
     parameters.is_still = is_still;
-    read_water_space(settings, context, parameters.water);
-    parameters.water.unit = "m3/m3";
+    parameters.space = SoilSpace::read(settings, context);
     parameters.days = read_days(settings, weather.get());
     const Settings named = settings.table("soils");
     parameters.kind = read_soil_kind(settings, "soil", named, parameters);
@@ -312,8 +311,8 @@ SoilParameters read_soil_parameters(Settings& settings, const EnvironmentContext
         read_sides(boundaries, parameters);
         parameters.accuracy = settings.number_or("accuracy", 0.005, Range{0, 0.5, true});
     }
-    read_water_queries(settings, parameters.water, !is_still);
-    if (is_still && parameters.water.depletion) {
+    parameters.querying = SoilQuerying::read(settings, parameters.space.voxel, !is_still);
+    if (is_still && parameters.querying.depletion) {
         throw UserError(settings.place("depletion"),
                         "what is taken from a soil of model = \"still\" is put back: it "
                         "knows no depletion");
@@ -326,7 +325,7 @@ void warn_of_root_outside(std::vector<Diagnostic>*& warnings, const SoilParamete
     if (!warnings) return;
     const bool ends = soil.outside == OutsideSoil::root_ends;
     warnings->push_back(
-        {Diagnostic::Severity::warning, soil.water.settings_place,
+        {Diagnostic::Severity::warning, soil.space.place,
          fmt::format("a root of plant {} leaves the soil of '{}' at ({:.3g}, {:.3g}, {:.3g}): {}. Tips can ask how far "
                      "the nearest wall is, and a larger domain or periodic sides give them room; outside = \"error\" "
                      "ends the run here",

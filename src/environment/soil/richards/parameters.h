@@ -3,9 +3,9 @@
 
 #include "espalier/environment/shape.h"
 
+#include "environment/given/weather/time_series.h"
 #include "environment/soil/grid/parameters.h"
 #include "environment/soil/hydraulics/hydraulics.h"
-#include "environment/soil/richards/series.h"
 #include "environment/soil/richards/texture_map.h"
 
 #include <array>
@@ -30,7 +30,7 @@ struct SoilBeginning {
 /// Heads that were measured at heights: linear between these, and each holds until the next time.
 struct MeasuredHeads {
     std::vector<double> heights;  ///< m, rising
-    std::vector<SoilSeries> heads;
+    std::vector<TimeSeries> heads;
 
     bool any() const { return !heads.empty(); }
     double at(double height, double day) const;
@@ -39,12 +39,14 @@ struct MeasuredHeads {
 /// A side across: a head there, or the height of a water table, m.
 struct SoilSide {
     enum class Kind { closed, head, table } kind = Kind::closed;
-    SoilSeries value;
+    TimeSeries value;
+
+    bool is_open() const { return kind != Kind::closed; }
 };
 
 struct SoilLayer {
-    double bottom = 0, top = 0;  ///< m, at x = 0
-    double rise = 0;             ///< m of height per m along x
+    LayerHeights heights;  ///< at x = 0
+    double rise = 0;       ///< m of height per m along x
     std::optional<std::size_t> kind;
     std::optional<SoilBeginning> beginning;
 };
@@ -65,14 +67,14 @@ struct SoilInflow {
 
 struct SoilSurface {
     enum class Kind { closed, atmosphere, flux, head } kind = Kind::closed;
-    SoilSeries rain, evaporation, flux, head;  ///< mm/d, mm/d potential, mm/d into the soil, cm
+    TimeSeries rain, evaporation, flux, head;  ///< mm/d, mm/d potential, mm/d into the soil, cm
     double dry_limit = -10000;                 ///< cm: no head at the surface is lower
     double ponding = 0;                        ///< mm that stand on the surface before water runs off
 };
 
 struct SoilFloor {
     enum class Kind { closed, free_drainage, seepage, flux, head } kind = Kind::closed;
-    SoilSeries flux, head;        ///< mm/d into the soil; cm at the bottom face
+    TimeSeries flux, head;        ///< mm/d into the soil; cm at the bottom face
     std::optional<double> table;  ///< m: the height of the water table instead of a head
 };
 
@@ -87,8 +89,9 @@ enum class OutsideSoil {
 OutsideSoil read_outside(const Settings& settings);
 
 struct SoilParameters {
-    WaterParameters water;  ///< the space, and how queries are answered
-    double days = 1;        ///< what a time unit of the scene is
+    SoilSpace space;
+    SoilQuerying querying;
+    double days = 1;  ///< what a time unit of the scene is
     std::vector<SoilHydraulics> kinds;
     std::vector<std::string> kind_names;
     std::set<std::string> names_in_use;  ///< of soils of the scene or the library

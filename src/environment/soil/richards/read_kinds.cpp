@@ -85,7 +85,7 @@ std::vector<SoilTable::Row> read_rows(const Settings& table) {
     }
     const std::filesystem::path path = table.path("file");
     const auto to_cm = head_unit(table.text_or("unit", "cm"), table.place("unit"));
-    const CsvRows file(path, true);
+    const CsvRows file(path);
     const std::vector<std::string> names{"head", "theta", "k"};
     if (file.rows().empty() || file.rows().front().cells != names) {
         throw UserError({path.string(), 1, 0}, "the first line of a soil's table is: head,theta,k");
@@ -93,12 +93,7 @@ std::vector<SoilTable::Row> read_rows(const Settings& table) {
     std::vector<SoilTable::Row> rows;
     for (std::size_t i = 1; i < file.rows().size(); ++i) {
         const CsvRow& row = file.rows()[i];
-        const auto number = [&](std::size_t column) {
-            const std::optional<double> value = row.number(column);
-            if (!value) throw UserError(file.place(row, column), fmt::format("'{}' is no number", names[column]));
-            return *value;
-        };
-        rows.push_back({to_cm(number(0)), number(1), number(2)});
+        rows.push_back({to_cm(file.number(row, 0)), file.number(row, 1), file.number(row, 2)});
     }
     return rows;
 }
@@ -167,8 +162,7 @@ std::size_t add(const SoilKind& kind, const std::string& name, SoilParameters& p
     for (std::size_t i = 0; i < parameters.kinds.size(); ++i) {
         if (parameters.kinds[i].soil() == kind) return i;
     }
-    if (parameters.kinds.size() == 255)
-        throw UserError(parameters.water.settings_place, "a soil has at most 255 kinds");
+    if (parameters.kinds.size() == 255) throw UserError(parameters.space.place, "a soil has at most 255 kinds");
     parameters.kinds.emplace_back(kind);
     parameters.kind_names.push_back(name);
     return parameters.kinds.size() - 1;

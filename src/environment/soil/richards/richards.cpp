@@ -2,6 +2,7 @@
 
 #include "espalier/base/stop.h"
 
+#include "base/bytes.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -12,8 +13,8 @@
 namespace espalier::environment {
 namespace {
 
-constexpr double shortest_substep = 1e-9, first_substep = 1e-5;  ///< days
-constexpr double driest_head = -1e6;                             ///< cm, that a soil may begin with
+constexpr double shortest_substep = 1e-9;  ///< days
+constexpr double driest_head = -1e6;       ///< cm, that a soil may begin with
 
 }  // namespace
 
@@ -31,25 +32,10 @@ Richards::Richards(const SoilLayout& layout, const SoilParameters& parameters)
       parameters_(parameters),
       grid_(layout.grid()),
       edge_(layout.edge()),
-      points_(grid_.cells()),
-      row_norm_(grid_.rows()),
-      row_sum_(grid_.rows()),
-      system_(layout) {
-    for (WaterBrick* brick : {&head_, &content_, &trial_, &rate_, &uptake_, &uptake_by_head_, &inflow_, &residual_,
-                              &change_, &before_, &start_}) {
-        brick->assign(grid_.cells(), 0.0);
-    }
-    for (FaceFluxes& axis : fluxes_) axis.resize(grid_.cells());
-    const std::size_t columns = std::size_t(grid_.size().x) * grid_.size().z;
-    floor_.resize(columns);
-    surface_.resize(columns);
-    ponding_.assign(columns, 0.0);
-    for (std::size_t side = 0; side < sides_.size(); ++side) {
-        if (parameters.sides[side].kind == SoilSide::Kind::closed) continue;
-        has_side_heads_ = true;
-        sides_[side].resize(side < 2 ? grid_.rows() : std::size_t(grid_.size().x) * grid_.size().y);
-    }
-    next_substep_ = first_substep;
+      trial_(layout, parameters),
+      steps_(layout) {
+    for (WaterBrick* brick : {&head_, &content_, &inflow_}) brick->assign(grid_.cells(), 0.0);
+    ponding_.assign(std::size_t(grid_.size().x) * grid_.size().z, 0.0);
     begin();
 }
 
@@ -67,67 +53,39 @@ double Richards::first_head(std::size_t cell, const SoilBeginning& beginning, do
 }
 
 void Richards::begin() {
-    for (std::size_t row = 0; row < grid_.rows(); ++row) {
-        for (int x = 0; x < grid_.size().x; ++x) {
-            const std::size_t cell = grid_.row_begin(row) + x;
-            if (!layout_.free(cell)) continue;
-            const glm::dvec3 centre = grid_.centre({x, grid_.y_of(row), grid_.z_of(row)});
-            head_[cell] = first_head(cell, layout_.beginning(centre), centre.y);
-            content_[cell] = layout_.kind(cell).at(head_[cell]).content;
-        }
-    }
+    layout_.for_each_free([&](std::size_t cell) {
+        const glm::dvec3 centre = grid_.centre(grid_.voxel_of(cell));
+        head_[cell] = first_head(cell, layout_.beginning(centre), centre.y);
+        content_[cell] = layout_.kind(cell).at(head_[cell]).content;
+    });
     set_measured_heads(0);
-    for (const SoilInflow& inflow : parameters_.inflows) {
-        std::size_t found = 0;
-        for (std::size_t row = 0; row < grid_.rows(); ++row) {
-            for (int x = 0; x < grid_.size().x; ++x) {
-                const std::size_t cell = grid_.row_begin(row) + x;
-                const glm::dvec3 centre = grid_.centre({x, grid_.y_of(row), grid_.z_of(row)});
-                if (!layout_.free(cell) || !inflow.shape->inside(centre)) continue;
-                inflow_[cell] += inflow.rate;
-                ++found;
-            }
-        }
-        if (found == 0) throw UserError(inflow.place, "this source holds no voxel's centre: make it larger or move it");
-    }
+    find_inflow();
     measure();
     balance_.start = balance_.stored;
-    trial_ = head_;
-    find_points();
-    if (!parameters_.is_still) layout_.for_rows([&](std::size_t row) { find_fluxes(row); });
+    trial_.look(head_);
+    if (!parameters_.is_still) trial_.find_inner_fluxes();
+}
+
+void Richards::find_inflow() {
+    for (const SoilInflow& inflow : parameters_.inflows) {
+        std::vector<std::size_t> cells = cells_of_source(grid_, *inflow.shape, inflow.place);
+        std::erase_if(cells, [&](std::size_t cell) { return !layout_.free(cell); });
+        if (cells.empty()) throw UserError(inflow.place, "this source lies within stones: move it");
+        for (const std::size_t cell : cells) inflow_[cell] += inflow.rate;
+    }
 }
 
 void Richards::attach(SoilFollower& follower) {
-    if (followers_.empty()) movement_.resize(grid_, has_side_heads_);
+    if (followers_.empty()) movement_.resize(grid_, trial_.fluxes().has_side_heads());
     followers_.push_back(&follower);
 }
 
-double Richards::flux(std::size_t cell, int axis) const {
-    if (!layout_.free(cell)) return 0;
-    const std::size_t row = cell / grid_.stride();
-    const NeighbourRows at = layout_.neighbours(row);
-    const std::size_t x = cell - at.own;
-    const WaterBrick& flux = fluxes_[axis].flux;
-    const glm::ivec3 voxel = grid_.voxel_of(cell);
-    if (axis == 0) return 0.5 * (flux[cell] + flux[cell - 1] + side_flux(0, voxel) - side_flux(1, voxel));
-    if (axis == 2) {
-        const double back = at.back != at.own ? flux[at.back + x] : 0;
-        return 0.5 * (flux[cell] + back + side_flux(2, voxel) - side_flux(3, voxel));
-    }
-    const std::size_t column = std::size_t(grid_.z_of(row)) * grid_.size().x + x;
-    const double below = at.below != at.own ? flux[at.below + x] : floor_[column].flux;
-    const double above = at.has_above ? flux[cell] : -surface_[column].into.flux;
-    return 0.5 * (below + above);
-}
-
 void Richards::measure() {
-    layout_.for_rows([&](std::size_t row) {
-        double sum = 0;
-        for (int x = 0; x < grid_.size().x; ++x) sum += content_[grid_.row_begin(row) + x];
-        row_sum_[row] = sum;
-    });
+    std::vector<double> row_sum(grid_.rows());
+    layout_.for_rows(
+        [&](std::size_t row) { grid_.for_cells_of(row, [&](std::size_t cell) { row_sum[row] += content_[cell]; }); });
     double cells = 0, ponding = 0;
-    for (const double sum : row_sum_) cells += sum;
+    for (const double sum : row_sum) cells += sum;
     for (const double depth : ponding_) ponding += depth;
     balance_.stored = cells * edge_ + ponding;
 }
@@ -135,12 +93,12 @@ void Richards::measure() {
 double Richards::longest_substep(double end, std::span<SoilSink* const> sinks) const {
     double longest = std::min(parameters_.max_substep, end - day_);
     const SoilSurface& surface = parameters_.surface;
-    for (const SoilSeries* series : {&surface.rain, &surface.evaporation, &surface.flux, &surface.head,
+    for (const TimeSeries* series : {&surface.rain, &surface.evaporation, &surface.flux, &surface.head,
                                      &parameters_.floor.flux, &parameters_.floor.head}) {
         longest = std::min(longest, series->next_change(day_) - day_);
     }
     for (const SoilSide& side : parameters_.sides) longest = std::min(longest, side.value.next_change(day_) - day_);
-    for (const SoilSeries& head : parameters_.measured.heads) {
+    for (const TimeSeries& head : parameters_.measured.heads) {
         longest = std::min(longest, head.next_change(day_) - day_);
     }
     for (const SoilSink* sink : sinks) longest = std::min(longest, sink->longest_substep(day_));
@@ -148,131 +106,85 @@ double Richards::longest_substep(double end, std::span<SoilSink* const> sinks) c
 }
 
 void Richards::show_to(std::span<SoilSink* const> sinks) {
-    trial_ = head_;
-    find_points();
-    for (SoilSink* sink : sinks) sink->draw(points_, day_, 0, 1, uptake_, uptake_by_head_);
+    trial_.look(head_);
+    trial_.draw(sinks, day_, 0, 1);
+}
+
+bool Richards::is_before(double end) const {
+    return end - day_ > 1e-12 * (1 + std::abs(end));
+}
+
+void Richards::come_on(double days, double end) {
+    day_ = std::abs(end - day_ - days) < 1e-12 * (1 + std::abs(end)) ? end : day_ + days;
 }
 
 void Richards::advance(double days, std::span<SoilSink* const> sinks) {
     if (parameters_.is_still) return stand_still(days, sinks);
-    const double end = day_ + days;
-    while (end - day_ > 1e-12 * (1 + std::abs(end))) {
+    const double end = day_ + days, accuracy = parameters_.accuracy;
+    while (is_before(end)) {
         end_if_asked();
-        const double longest = longest_substep(end, sinks);
-        double substep_days = std::min(next_substep_, longest);
-        if (substep_days > 0.6 * longest && substep_days < longest) substep_days = 0.5 * longest;  // no crumb is left
-        double error = 0;
-        const Outcome outcome = substep(substep_days, sinks, error);
-        if (outcome == Outcome::failed && substep_days < shortest_substep) give_up(substep_days);
-        // The error of an implicit Euler step grows with the square of its length.
-        const double fitting = std::clamp(0.9 * std::sqrt(parameters_.accuracy / std::max(error, 1e-12)), 0.2, 2.0);
-        if (outcome == Outcome::good) {
-            day_ = std::abs(end - day_ - substep_days) < 1e-12 * (1 + std::abs(end)) ? end : day_ + substep_days;
-            next_substep_ =
-                std::max(next_substep_ > substep_days && fitting >= 1 ? next_substep_ : 0, substep_days * fitting);
-        } else {
-            next_substep_ = substep_days * (outcome == Outcome::failed ? 0.25 : fitting);
+        const double dt = steps_.next(longest_substep(end, sinks));
+        const double weight = solve(dt, sinks);
+        if (weight == 0) {
+            if (dt < shortest_substep) give_up(dt);
+            steps_.shorten(dt, 0.25);
+            continue;
         }
+        const double error = steps_.error(trial_.points(), content_, dt);
+        // The error of an implicit Euler step grows with the square of its length.
+        const double fitting = std::clamp(0.9 * std::sqrt(accuracy / std::max(error, 1e-12)), 0.2, 2.0);
+        if (error > 4 * accuracy && dt > 100 * shortest_substep) {
+            steps_.shorten(dt, fitting);
+            continue;
+        }
+        accept(dt, weight, sinks);
+        come_on(dt, end);
+        steps_.lengthen(dt, fitting);
     }
     measure();
 }
 
-Richards::Outcome Richards::substep(double days, std::span<SoilSink* const> sinks, double& error) {
-    const SoilSurface& surface = parameters_.surface;
-    const double middle = day_ + 0.5 * days;
-    SoilForcing now{
-        {0.1 * surface.rain.at(middle), 0.1 * surface.evaporation.at(middle), surface.dry_limit, 0.1 * surface.ponding},
-        0.1 * surface.flux.at(middle),
-        surface.head.at(middle),
-        0.1 * parameters_.floor.flux.at(middle),
-        parameters_.floor.table ? 100 * (*parameters_.floor.table - grid_.lower().y)
-                                : parameters_.floor.head.at(middle)};
-    for (std::size_t side = 0; side < sides_.size(); ++side) {
-        if (!sides_[side].empty()) now.sides[side] = parameters_.sides[side].value.at(middle);
-    }
-    if (!(now == forcing_)) smooth_ = false;
+double Richards::solve(double days, std::span<SoilSink* const> sinks) {
+    const SoilForcing forcing = SoilForcing::at(day_ + 0.5 * days, parameters_, grid_);
+    if (!(forcing == forcing_)) steps_.jump();
     for (SoilSink* sink : sinks) {
-        if (sink->has_jumped(day_)) smooth_ = false;
+        if (sink->has_jumped(day_)) steps_.jump();
     }
-    forcing_ = now;
-    const double weight = choose_start(days);
-    if (!newton(weight * days, weight, sinks) || (weight < 1 && stands_on_surface())) {
-        if (weight == 1) return Outcome::failed;
-        smooth_ = false;  // once more as an implicit Euler step
-        return substep(days, sinks, error);
+    forcing_ = forcing;
+    for (;;) {
+        const double weight = steps_.begin(content_, days);
+        const ImplicitStep step{day_, weight * days, weight, forcing_, steps_.theta_0(), inflow_, ponding_, sinks};
+        const bool is_solved = trial_.solve(head_, step) && !(weight < 1 && trial_.fluxes().has_pond());
+        if (is_solved) return weight;
+        if (weight == 1) return 0;
+        steps_.jump();  // once more as an implicit Euler step
     }
-    error = has_rate_ ? error_of(days) : 0;
-    if (error > 4 * parameters_.accuracy && days > 100 * shortest_substep) return Outcome::too_long;
+}
+
+void Richards::accept(double days, double weight, std::span<SoilSink* const> sinks) {
     account(days, weight);
-    if (!followers_.empty()) record_movement(days, weight);
+    if (!followers_.empty()) tell_followers(days, weight);
     for (SoilSink* sink : sinks) sink->accept(days, weight);
-    return Outcome::good;
-}
-
-bool Richards::stands_on_surface() const {
-    return std::any_of(surface_.begin(), surface_.end(), [](const SurfaceExchange& at) { return at.ponding > 0; });
-}
-
-/// The second-order backward difference (BDF2), written as an implicit Euler step of a part of the substep that begins
-/// from contents already moved on: the part is returned. It is 1, implicit Euler, at first, after a jump of the
-/// weather, with water on the surface, and where a content would leave its range.
-double Richards::choose_start(double days) {
-    start_ = content_;
-    if (!has_rate_ || !smooth_ || last_days_ <= 0) return 1;
-    const double ratio = days / last_days_;
-    const double onward = ratio * ratio / (1 + 2 * ratio) * last_days_;
-    for (std::size_t row = 0; row < grid_.rows(); ++row) {
-        for (int x = 0; x < grid_.size().x; ++x) {
-            const std::size_t c = grid_.row_begin(row) + x;
-            if (!layout_.free(c)) continue;
-            start_[c] = content_[c] + onward * rate_[c];
-            const SoilKind& soil = layout_.kind(c).soil();
-            if (start_[c] <= soil.saturated && start_[c] > soil.residual + 0.5 * (content_[c] - soil.residual))
-                continue;
-            start_ = content_;
-            return 1;
-        }
-    }
-    return (1 + ratio) / (1 + 2 * ratio);
-}
-
-/// Half the change of the rate, over the substep.
-double Richards::error_of(double days) const {
-    double error = 0;
-    for (std::size_t row = 0; row < grid_.rows(); ++row) {
-        for (int x = 0; x < grid_.size().x; ++x) {
-            const std::size_t c = grid_.row_begin(row) + x;
-            if (!layout_.free(c)) continue;
-            const double rate = (points_[c].content - content_[c]) / days;
-            error = std::max(error, 0.5 * days * std::abs(rate - rate_[c]));
-        }
-    }
-    return error;
 }
 
 void Richards::account(double days, double weight) {
     SoilRates now;
-    for (std::size_t row = 0; row < grid_.rows(); ++row) {
-        for (int x = 0; x < grid_.size().x; ++x) {
-            const std::size_t c = grid_.row_begin(row) + x;
-            if (!layout_.free(c)) continue;
-            // What Newton's method left over is carried on, so that nothing is lost.
-            const double content = points_[c].content + residual_[c] * weight * days / edge_;
-            rate_[c] = (content - content_[c]) / days;
-            content_[c] = content;
-            head_[c] = trial_[c];
-            now.drunk += uptake_[c] * edge_;
-            now.added += inflow_[c] * edge_;
-        }
-    }
-    for (const std::vector<SoilFlux>& side : sides_) {
-        for (const SoilFlux& flux : side) now.sides += flux.flux;
-    }
+    layout_.for_each_free([&](std::size_t c) {
+        // What Newton's method left over is carried on, so that nothing is lost.
+        const double content = trial_.points()[c].content + trial_.residual()[c] * weight * days / edge_;
+        steps_.rate()[c] = (content - content_[c]) / days;
+        content_[c] = content;
+        head_[c] = trial_.heads()[c];
+        now.drunk += trial_.uptake()[c] * edge_;
+        now.added += inflow_[c] * edge_;
+    });
+    const SoilFluxes& fluxes = trial_.fluxes();
+    now.sides = fluxes.through_sides();
     const bool atmosphere = parameters_.surface.kind == SoilSurface::Kind::atmosphere;
     bool ponded = false;
     for (std::size_t column = 0; column < ponding_.size(); ++column) {
-        const SurfaceExchange& surface = surface_[column];
-        now.bottom += floor_[column].flux;
+        const SurfaceExchange& surface = fluxes.surface()[column];
+        now.bottom += fluxes.floor()[column].flux;
         if (atmosphere) {
             now.rain += forcing_.weather.rain;
             now.evaporation += surface.evaporation;
@@ -285,41 +197,20 @@ void Richards::account(double days, double weight) {
     }
     for (double SoilRates::*rate : SoilRates::all) {
         // What moved the contents on is a part of the rate before.
-        rates_.*rate = weight * (now.*rate) + (1 - weight) * (rates_.*rate);
+        bring_on(rates_.*rate, now.*rate, weight);
         balance_.flown.*rate += rates_.*rate * days;
     }
-    has_rate_ = true;
-    smooth_ = !ponded;
-    last_days_ = days;
+    steps_.accept(days, !ponded);
     ++substeps_;
 }
 
-void Richards::record_movement(double days, double weight) {
-    movement_.day = day_;
-    movement_.days = days;
-    layout_.for_rows([&](std::size_t row) {
-        const std::size_t begin = grid_.row_begin(row);
-        for (std::size_t c = begin; c < begin + grid_.size().x; ++c) {
-            for (int axis = 0; axis < 3; ++axis) bring_on(movement_.flux[axis][c], fluxes_[axis].flux[c], weight);
-            bring_on(movement_.uptake[c], uptake_[c], weight);
-            if (has_side_heads_) bring_on(movement_.sides[c], through_sides(c).flux, weight);
-        }
-    });
-    for (std::size_t column = 0; column < floor_.size(); ++column) {
-        bring_on(movement_.floor[column], floor_[column].flux, weight);
-        bring_on(movement_.surface[column], surface_[column].into.flux, weight);
-    }
+void Richards::tell_followers(double days, double weight) {
+    movement_.pass(day_, days, weight, layout_, trial_.fluxes(), trial_.uptake());
     for (SoilFollower* follower : followers_) follower->follow(movement_, content_);
 }
 
 void Richards::give_up(double days) const {
-    std::size_t worst = grid_.row_begin(0);
-    for (std::size_t row = 0; row < grid_.rows(); ++row) {
-        for (int x = 0; x < grid_.size().x; ++x) {
-            const std::size_t c = grid_.row_begin(row) + x;
-            if (std::abs(residual_[c]) > std::abs(residual_[worst])) worst = c;
-        }
-    }
+    const std::size_t worst = trial_.worst_cell();
     const glm::dvec3 at = grid_.centre(grid_.voxel_of(worst));
     throw RunError(
         fmt::format("the soil's water does not converge on day {}, at ({:.3g}, {:.3g}, {:.3g}) with a head of {:.4g} "
@@ -327,7 +218,92 @@ void Richards::give_up(double days) const {
                     "of {:.2g} d: use smaller voxels, a larger 'accuracy', or less abrupt soils and boundaries there; "
                     "where no water can "
                     "leave full soil, open a side",
-                    format_general(day_), at.x, at.y, at.z, trial_[worst], days));
+                    format_general(day_), at.x, at.y, at.z, trial_.heads()[worst], days));
+}
+
+void Richards::set_measured_heads(double day) {
+    if (!parameters_.measured.any()) return;
+    layout_.for_rows([&](std::size_t row) {
+        const double head = parameters_.measured.at(grid_.centre({0, grid_.y_of(row), 0}).y, day);
+        grid_.for_cells_of(row, [&](std::size_t c) {
+            if (!layout_.free(c)) return;
+            head_[c] = head;
+            content_[c] = layout_.kind(c).at(head).content;
+        });
+    });
+}
+
+/// What roots take is put back.
+void Richards::stand_still(double days, std::span<SoilSink* const> sinks) {
+    const double end = day_ + days;
+    while (is_before(end)) {
+        end_if_asked();
+        const double dt = longest_substep(end, sinks), stored = balance_.stored;
+        set_measured_heads(day_ + 0.5 * dt);
+        measure();
+        trial_.look(head_);
+        trial_.forget_uptake();
+        for (SoilSink* sink : sinks) sink->has_jumped(day_);
+        trial_.draw(sinks, day_, dt, 1);
+        double drunk = 0;
+        for (const double uptake : trial_.uptake()) drunk += uptake * edge_ * dt;
+        balance_.flown.drunk += drunk;
+        balance_.flown.added += drunk + (balance_.stored - stored);
+        if (!followers_.empty()) tell_followers(dt, 1);
+        for (SoilSink* sink : sinks) sink->accept(dt, 1);
+        come_on(dt, end);
+        ++substeps_;
+    }
+}
+
+/// What lies above the wilting point.
+WaterBrick Richards::available() const {
+    WaterBrick available(grid_.cells(), 0.0);
+    layout_.for_free([&](std::size_t c) {
+        available[c] = std::max(0.0, content_[c] - layout_.kind(c).at(parameters_.wilting_head).content);
+    });
+    return available;
+}
+
+void Richards::drink(const std::function<double(WaterBrick&)>& take) {
+    WaterBrick left = available();
+    const WaterBrick before = left;
+    const double taken = take(left);
+    if (taken == 0) return;
+    layout_.for_free([&](std::size_t c) {
+        if (left[c] == before[c]) return;
+        content_[c] -= before[c] - left[c];
+        head_[c] = layout_.kind(c).head_at(content_[c], head_[c]);
+    });
+    balance_.flown.drunk += taken * edge_;
+    measure();
+}
+
+void Richards::save(std::ostream& out) const {
+    for (const WaterBrick* brick : {&head_, &content_, &steps_.rate(), &ponding_}) {
+        write_doubles(out, {brick->data(), brick->size()});
+    }
+    put(out, day_);
+    steps_.save(out);
+    put(out, static_cast<double>(substeps_));
+    put(out, balance_);
+    put(out, rates_);
+    put(out, forcing_);
+    movement_.save(out);
+}
+
+void Richards::restore(std::istream& in) {
+    for (WaterBrick* brick : {&head_, &content_, &steps_.rate(), &ponding_}) {
+        read_doubles(in, {brick->data(), brick->size()});
+    }
+    day_ = get<double>(in);
+    steps_.restore(in);
+    substeps_ = static_cast<std::size_t>(get<double>(in));
+    balance_ = get<SoilBalance>(in);
+    rates_ = get<SoilRates>(in);
+    forcing_ = get<SoilForcing>(in);
+    movement_.restore(in);
+    measure();
 }
 
 }  // namespace espalier::environment

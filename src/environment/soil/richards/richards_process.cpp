@@ -1,17 +1,12 @@
 #include "environment/soil/richards/richards_process.h"
 
-#include "base/text.h"
 #include "environment/exchange/changing_settings.h"
 #include "environment/soil/grid/field.h"
-#include "environment/soil/grid/senses.h"
+#include "environment/soil/grid/queries.h"
 #include "environment/soil/grid/solids.h"
-#include "environment/soil/linear/stock.h"
 #include "environment/soil/richards/richards.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <istream>
 #include <ostream>
 
@@ -19,19 +14,6 @@ namespace espalier::environment {
 namespace {
 
 constexpr double bytes_per_soil_voxel = 37 * 8 + 6 * 5 + 4;
-
-WaterGrid affordable_soil(const SoilParameters& parameters, const EnvironmentContext& context) {
-    const WaterParameters& water = parameters.water;
-    const double voxels = WaterGrid::voxels_needed(water.domain, water.voxel, water.flat);
-    const double bytes = voxels * bytes_per_soil_voxel;
-    if (!(voxels <= 1e9) || bytes > static_cast<double>(context.memory)) {
-        throw UserError(water.voxel_place,
-                        fmt::format("'{}' would have {} voxels and take {} GB: use larger voxels, a smaller domain or "
-                                    "more memory",
-                                    context.name, format_general(voxels), format_general(bytes / 1e9)));
-    }
-    return WaterGrid(water.domain, water.voxel, water.flat);
-}
 
 /// The layer of voxels on the soil in which ponding water is shown.
 WaterGrid layer_on(const WaterGrid& soil) {
@@ -45,14 +27,13 @@ class RichardsSoil final : public EnvironmentProcess, public SharedSoil {
 public:
     RichardsSoil(Settings& settings, const EnvironmentContext& context, Fields& fields, bool is_still)
         : parameters_(read_soil_parameters(settings, context, is_still, fields)),
-          grid_(affordable_soil(parameters_, context)),
-          solids_(parameters_.water),
+          grid_(parameters_.space.affordable_grid(context, bytes_per_soil_voxel)),
+          solids_(parameters_.space),
           layout_((solids_.look(fields), SoilLayout(grid_, parameters_, solids_.free_voxels(grid_), fields))),
           soil_(layout_, parameters_),
           name_(context.name),
           warnings_(context.warnings),
-          uptake_(context.plants, 0),
-          wish_(context.plants, 0) {
+          queries_(parameters_.querying, context) {
         provide(context.name, fields);
     }
 
@@ -71,32 +52,14 @@ public:
     }
 
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
-        const WaterSenses senses{grid_,
-                                 layout_.faces(),
-                                 solids_,
-                                 parameters_.water,
-                                 soil_.contents(),
-                                 layout_.joined_x(),
-                                 layout_.joined_z()};
-        const std::vector<WaterWish> wishes = sense_water(senses, queries, answers);
         answer_heads(queries, answers);
-        const std::vector<double> obtained = parameters_.water.depletion ? soil_.share(wishes) : soil_.lend(wishes);
-        std::fill(uptake_.begin(), uptake_.end(), 0);
-        std::fill(wish_.begin(), wish_.end(), 0);
-        for (std::size_t q = 0; q < queries.size(); ++q) {
-            if (answers[q].empty()) continue;
-            answers[q][0] = obtained[q] * parameters_.water.amount;
-            if (queries[q].plant >= uptake_.size()) continue;
-            uptake_[queries[q].plant] += answers[q][0];
-            wish_[queries[q].plant] += wishes[q].amount * parameters_.water.amount;
-        }
+        queries_.answer({grid_, layout_.faces(), solids_, soil_.contents(), layout_.joined_x(), layout_.joined_z()},
+                        queries, answers, soil_);
         for (WaterField& field : shown_) field.change();
     }
 
     std::vector<ChangingSetting> changing_settings() override {
-        std::vector<ChangingSetting> settings{
-            changing("range", Range::positive(), parameters_.water.range),
-            changing("gradient_length", Range::positive(), parameters_.water.gradient_length)};
+        std::vector<ChangingSetting> settings = changing_settings_of(parameters_.querying);
         SoilSurface& surface = parameters_.surface;
         if (surface.kind != SoilSurface::Kind::atmosphere) return settings;
         const Range rates = Range::between(0, 1e5);
@@ -114,21 +77,18 @@ public:
         const double mm = 10 / static_cast<double>(soil_.ponding().size());  // per cm times columns
         double ponding = 0;
         for (const double depth : soil_.ponding()) ponding += depth;
-        const std::string unit = parameters_.water.amount == 1 ? "voxels" : "m3";
-        return {{"uptake", plant < uptake_.size() ? uptake_[plant] : 0, unit},
-                {"wish", plant < wish_.size() ? wish_[plant] : 0, unit},
-                {"storage", balance.stored * mm, "mm"},
-                {"ponding", ponding * mm, "mm"},
-                {"rain", balance.flown.rain * mm, "mm"},
-                {"evaporation", balance.flown.evaporation * mm, "mm"},
-                {"runoff", balance.flown.runoff * mm, "mm"},
-                {"infiltration", balance.flown.top * mm, "mm"},
-                {"sides", balance.flown.sides * mm, "mm"},
-                {"drainage", -balance.flown.bottom * mm, "mm"},
-                {"added", balance.flown.added * mm, "mm"},
-                {"drunk", balance.flown.drunk * mm, "mm"},
-                {"balance", balance.relative_error()},
-                {"substeps", static_cast<double>(soil_.substeps())}};
+        return queries_.statistics(plant, {{"storage", balance.stored * mm, "mm"},
+                                           {"ponding", ponding * mm, "mm"},
+                                           {"rain", balance.flown.rain * mm, "mm"},
+                                           {"evaporation", balance.flown.evaporation * mm, "mm"},
+                                           {"runoff", balance.flown.runoff * mm, "mm"},
+                                           {"infiltration", balance.flown.top * mm, "mm"},
+                                           {"sides", balance.flown.sides * mm, "mm"},
+                                           {"drainage", -balance.flown.bottom * mm, "mm"},
+                                           {"added", balance.flown.added * mm, "mm"},
+                                           {"drunk", balance.flown.drunk * mm, "mm"},
+                                           {"balance", balance.relative_error()},
+                                           {"substeps", static_cast<double>(soil_.substeps())}});
     }
 
     void attach(SoilSink& sink) override { sinks_.push_back(&sink); }
@@ -155,14 +115,12 @@ public:
 
     void save(std::ostream& out) const override {
         soil_.save(out);
-        write_doubles(out, uptake_);
-        write_doubles(out, wish_);
+        queries_.save(out);
     }
 
     void restore(std::istream& in) override {
         soil_.restore(in);
-        read_doubles(in, uptake_);
-        read_doubles(in, wish_);
+        queries_.restore(in);
     }
 
 private:
@@ -192,10 +150,7 @@ private:
 
     const WaterBrick& fluxes_along(int axis) {
         shown_values_.assign(grid_.cells(), 0);
-        layout_.for_rows([&](std::size_t row) {
-            const std::size_t begin = grid_.row_begin(row);
-            for (std::size_t c = begin; c < begin + grid_.size().x; ++c) shown_values_[c] = soil_.flux(c, axis);
-        });
+        layout_.for_free([&](std::size_t cell) { shown_values_[cell] = soil_.flux(cell, axis); });
         return shown_values_;
     }
 
@@ -227,11 +182,11 @@ private:
     Richards soil_;
     std::string name_;
     std::vector<Diagnostic>* warnings_;  ///< null as soon as there was one
+    SoilQueries queries_;
     std::vector<SoilSink*> sinks_;
     std::vector<SoilFollower*> followers_;
     std::vector<WaterField> shown_;
-    WaterBrick shown_values_;            ///< of the field that is being made
-    std::vector<double> uptake_, wish_;  ///< per plant, this step
+    WaterBrick shown_values_;  ///< of the field that is being made
 };
 
 }  // namespace

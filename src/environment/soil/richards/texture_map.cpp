@@ -50,7 +50,7 @@ TextureMap::TextureMap(const Settings& map, std::size_t soils) {
 }
 
 void TextureMap::read_table(const std::filesystem::path& path, std::size_t soils) {
-    const CsvRows table(path, true);
+    const CsvRows table(path);
     if (table.rows().empty()) throw UserError({path.string(), 0, 0}, "this map has no rows");
     width_ = table.rows().front().cells.size();
     height_ = table.rows().size();

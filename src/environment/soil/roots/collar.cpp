@@ -33,13 +33,13 @@ RootCollar RootCollar::read(const Settings& settings) {
     }
     if (collar.held) {
         // Above 0, the plant would press water into the soil.
-        collar.head = SoilSeries::read_head(table, "head", Range::between(-1e6, 0));
+        collar.head = read_head_series(table, "head", Range::between(-1e6, 0));
         return collar;
     }
     collar.leaves = table.text_or("leaves", "");
     collar.limit = read_head_or(table, "limit", -15000, Range::between(-1e6, -1));
     if (!collar.leaves.empty()) return collar;
-    collar.demand = SoilSeries::read(table, "transpiration", 0, Range::between(0, 1e9));
+    collar.demand = TimeSeries::read(table, "transpiration", 0, Range::between(0, 1e9));
     collar.by_day = table.flag_or("by_day", false);
     return collar;
 }

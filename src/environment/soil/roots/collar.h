@@ -3,7 +3,7 @@
 
 #include "espalier/base/settings.h"
 
-#include "environment/soil/richards/series.h"
+#include "environment/given/weather/time_series.h"
 #include "environment/soil/roots/hydraulic_tree.h"
 
 #include <string>
@@ -12,8 +12,8 @@ namespace espalier::environment {
 
 struct RootCollar {
     bool held = false;      ///< at `head`; else it transpires
-    SoilSeries head;        ///< pressure head at the collar, cm
-    SoilSeries demand;      ///< potential transpiration, cm3/d for each plant
+    TimeSeries head;        ///< pressure head at the collar, cm
+    TimeSeries demand;      ///< potential transpiration, cm3/d for each plant
     double limit = -15000;  ///< cm: no demand draws the collar lower
     std::string leaves;     ///< the process whose leaves say the demand; "": `demand` does
     bool by_day = false;    ///< the demand follows a sine from 6 to 18 o'clock; its mean is `demand`

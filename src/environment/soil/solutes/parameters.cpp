@@ -56,7 +56,7 @@ void read_parts(Settings& settings, SoluteParameters& parameters) {
 void read_sides(const Settings& settings, SoluteParameters& parameters) {
     const Settings boundaries = settings.table("boundaries");
     const Settings top = boundaries.table("top"), bottom = boundaries.table("bottom");
-    parameters.rain = SoilSeries::read(top, "entering", 0, concentrations);
+    parameters.rain = TimeSeries::read(top, "entering", 0, concentrations);
     parameters.sides.entering_sides = boundaries.table("sides").number_or("entering", 0, concentrations);
     parameters.sides.entering_bottom = bottom.number_or("entering", 0, concentrations);
     if (top.has("held")) parameters.sides.held_top = top.number("held", concentrations);
@@ -65,7 +65,7 @@ void read_sides(const Settings& settings, SoluteParameters& parameters) {
 
 /// The space of a solute that finds no soil with pressure.
 void read_space(Settings& settings, const EnvironmentContext& context, SoluteParameters& parameters) {
-    read_water_space(settings, context, parameters.soil.water);
+    parameters.soil.space = SoilSpace::read(settings, context);
     parameters.soil.days = settings.number_or("days", 1, Range{0, 1e6, true});
     parameters.soil.periodic = settings.choice_or("sides", "closed", {"closed", "periodic"}) == "periodic";
     parameters.soil.outside = read_outside(settings);

@@ -49,7 +49,7 @@ struct SoluteParameters {
     std::vector<SoluteBeginning> beginnings;
     std::vector<SoluteSource> sources;
     std::vector<SoluteEvent> events;  ///< by rising day
-    SoilSeries rain;                  ///< concentration of water that enters at the top
+    TimeSeries rain;                  ///< concentration of water that enters at the top
     SoluteSides sides;
     UptakeKinetics kinetics;
     bool zone = true;

@@ -3,8 +3,8 @@
 #include "espalier/base/math.h"
 #include "espalier/base/stop.h"
 
+#include "base/bytes.h"
 #include "base/parallel.h"
-#include "environment/soil/linear/stock.h"
 #include "environment/soil/roots/plant_roots.h"
 #include "environment/soil/roots/zone.h"
 
@@ -219,8 +219,8 @@ void SoluteInSoil::save(std::ostream& out) const {
     write_doubles(out, in_step_);
     const double numbers[] = {day_, days_in_step_, static_cast<double>(next_event_)};
     write_doubles(out, numbers);
-    out.write(reinterpret_cast<const char*>(&account_), sizeof account_);
-    out.write(reinterpret_cast<const char*>(&transport_.flown()), sizeof(SoluteFlown));
+    put(out, account_);
+    put(out, transport_.flown());
 }
 
 void SoluteInSoil::restore(std::istream& in) {
@@ -232,8 +232,8 @@ void SoluteInSoil::restore(std::istream& in) {
     day_ = numbers[0];
     days_in_step_ = numbers[1];
     next_event_ = static_cast<std::size_t>(numbers[2]);
-    in.read(reinterpret_cast<char*>(&account_), sizeof account_);
-    in.read(reinterpret_cast<char*>(&transport_.flown()), sizeof(SoluteFlown));
+    account_ = get<SoluteAccount>(in);
+    transport_.flown() = get<SoluteFlown>(in);
 }
 
 }  // namespace espalier::environment

@@ -137,7 +137,7 @@ TEST_CASE("water lost and gained is accounted for to 1e-9 among obstacles, sourc
             wishes.push_back(
                 {sample_water(soil.grid, soil.stock.faces(), soil.stock.contents(), p).stencil, wish(random)});
         }
-        soil.stock.share(wishes);
+        soil.stock.drink([&](WaterBrick& stock) { return share_water(soil.grid, wishes, stock).taken; });
         soil.stock.measure();
         REQUIRE(std::abs(soil.stock.balance().relative_error()) < 1e-12);
         REQUIRE(soil.stock.balance().minimum >= 0);

@@ -5,8 +5,8 @@
 #include "espalier/geometry/openvdb_grid.h"
 
 #include "environment/soil/grid/direction.h"
-#include "environment/soil/grid/parameters.h"
 #include "environment/soil/grid/solids.h"
+#include "environment/soil/grid/uptake.h"
 #include "environment/soil/linear/stock.h"
 
 #include <sstream>
@@ -93,8 +93,8 @@ struct Stock {
     explicit Stock(const std::string& text)
         : settings(Settings::parse_toml(text, "soil.toml")),
           parameters(read_water_parameters(settings, EnvironmentContext{})),
-          grid(parameters.domain, parameters.voxel, parameters.flat),
-          solids(parameters),
+          grid(parameters.space.grid()),
+          solids(parameters.space),
           diffusion(grid, parameters),
           stock(grid, parameters, solids.free_voxels(grid)) {}
 

@@ -15,7 +15,7 @@ struct SoilBlock {
     explicit SoilBlock(const std::string& text)
         : settings(Settings::parse_toml(text, "soil.toml")),
           parameters(read_soil_parameters(settings, EnvironmentContext{})),
-          grid(parameters.water.domain, parameters.water.voxel, parameters.water.flat),
+          grid(parameters.space.grid()),
           layout(grid, parameters, std::vector<std::uint8_t>(grid.voxels(), 1), fields),
           soil(layout, parameters) {
         settings.reject_unread();

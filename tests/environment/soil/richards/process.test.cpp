@@ -182,17 +182,22 @@ TEST_CASE("a series with gaps, words, or days that do not rise names its line", 
                         file.string()),
             message);
     };
-    check_series("day,rain\n0,1\n1,\n2,3\n", "espalier-gaps.csv:3: there is no 'rain' in this line");
-    check_series("day,rain\n0,1\n1,wet\n", "espalier-gaps.csv:3: 'wet' is not a number");
-    check_series("day,rain\n0,1\n1,2\n1,3\n", "espalier-gaps.csv:4: day 1 is not behind day 1");
+    check_series("day,rain\n0,1\n1,\n2,3\n",
+                 "espalier-gaps.csv:3:2: there is no number here: the series 'rain' has no gaps");
+    check_series("day,rain\n0,1\n1,wet\n", "espalier-gaps.csv:3:2: 'wet' is not a number");
+    check_series("day,rain\n0,1\n1,2\n1,3\n", "espalier-gaps.csv:4: day 1 is not after day 1");
+    check_series("date,rain\n2025-06-21,1\n21 June,2\n", "espalier-gaps.csv:3:1: '21 June' is no date");
+    check_series("rain,time (week)\n1,0\n", "no column 'rain'");
+    check_series("time (week),rain\n0,1\n", "espalier-gaps.csv:1:1: the column 'time' has the unit 'week'");
     check_series("day,rain\n0,nan\n", "'nan' is not a number");
-    check_series("day,rain\n0,1\n1,9999\n",
-                 "espalier-gaps.csv:3: '9999' stands for a value that was not measured (if it was, write 9999.01): the "
-                 "series 'rain'");
+    check_series(
+        "day,rain\n0,1\n1,9999\n",
+        "espalier-gaps.csv:3:2: '9999' stands for a value that was not measured (if it was, write 9999.01): the "
+        "series 'rain'");
     check_series(
         "\xEF\xBB\xBF"
         "day;rain\n0;0,5\n1;wet\n",
-        "espalier-gaps.csv:3: 'wet' is not a number");
+        "espalier-gaps.csv:3:2: 'wet' is not a number");
     check_series("day,rain\n0,-4\n", "'rain' is -4");
     check_series("day,snow\n0,1\n", "no column 'rain'");
     check_series("day,rain\n", "no lines");

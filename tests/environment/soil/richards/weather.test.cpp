@@ -168,6 +168,24 @@ TEST_CASE("a season of weather from a file is accounted for to a millionth", "[e
     std::filesystem::remove_all(folder);
 }
 
+TEST_CASE("a series by days, by hours and by dates is the same rain", "[environment][soil]") {
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / "espalier-soil-clock.csv";
+    for (const char* const lines :
+         {"day,rain\n0,4\n0.5,0\n2,6\n3,0\n", "time (h),rain\n0,4\n12,0\n48,6\n72,0\n",
+          "date,snow,rain\n2024-02-28,9,4\n2024-02-28 12:00,9,0\n2024-03-01,9,6\n2024-03-02,9,0\n"}) {
+        write_text(file, lines);
+        SoilBlock column(column_of(0.5, 0.05,
+                                   fmt::format("soil = \"loam\"\nboundaries = {{ top = {{ rain = {{ file = \"{}\", "
+                                               "column = \"rain\" }} }} }}",
+                                               file.string())));
+        for (const auto& [days, rain] : {std::pair(0.25, 0.1), {0.5, 0.2}, {1.25, 0.2}, {0.5, 0.5}, {0.5, 0.8}}) {
+            column.advance(days);
+            CHECK(column.flown().rain == Approx(rain).epsilon(1e-9));
+        }
+    }
+    std::filesystem::remove(file);
+}
+
 TEST_CASE("hydrostatic soil stands still, through layers too", "[environment][soil]") {
     for (const double voxel : {0.02, 0.1}) {
         SoilBlock column(column_of(1, voxel,
