@@ -75,33 +75,44 @@ private:
     std::size_t count_;
 };
 
-/// Standard errors and their correlations, from the curvature of the sum of squares at its minimum: of the parameters
-/// that move a residual.
-void add_errors(LeastSquares& fit, const Problem& problem, const VectorXd& x, double sum_of_squares) {
+/// Errors and correlations, from the curvature of the sum of squares at its minimum. Parameters that change nothing,
+/// and those of which only a combination counts, are not decided.
+void add_errors(const Problem& problem, const VectorXd& x, double sum_of_squares, LeastSquares& fit) {
+    constexpr double nothing = 1e-9, combined = 1e-7;
+    const auto count = static_cast<std::size_t>(problem.inputs());
+    fit.errors.assign(count, std::nan(""));
+    fit.correlations.assign(count, std::vector<double>(count, 0));
     Eigen::MatrixXd jacobian(problem.values(), problem.inputs());
     problem.df(x, jacobian);
-    fit.errors.assign(fit.values.size(), std::nan(""));
-    std::vector<int> moving;
-    const double most = jacobian.colwise().squaredNorm().maxCoeff();
+    const VectorXd lengths = jacobian.colwise().norm();
+    std::vector<int> changing;
     for (int k = 0; k < problem.inputs(); ++k) {
-        if (jacobian.col(k).squaredNorm() > 1e-16 * most) moving.push_back(k);
+        if (lengths[k] > nothing * lengths.maxCoeff()) changing.push_back(k);
     }
-    if (moving.empty() || problem.values() <= problem.inputs()) return;
-    const Eigen::MatrixXd slopes = jacobian(Eigen::all, moving);
-    const Eigen::FullPivLU<Eigen::MatrixXd> curvature(slopes.transpose() * slopes);
-    if (!curvature.isInvertible()) return;
-    const Eigen::MatrixXd covariance = curvature.inverse() * (sum_of_squares / (problem.values() - problem.inputs()));
-    const VectorXd errors = covariance.diagonal().cwiseMax(0).cwiseSqrt();
-    const VectorXd widths = curvature.inverse().diagonal().cwiseMax(0).cwiseSqrt();
-    fit.correlations.assign(fit.values.size() * fit.values.size(), 0);
-    for (std::size_t i = 0; i < moving.size(); ++i) {
-        const auto k = static_cast<std::size_t>(moving[i]);
-        fit.errors[k] = errors[static_cast<int>(i)] * problem.unit(moving[i]);
-        for (std::size_t j = 0; j < moving.size(); ++j) {
-            const double product = widths[static_cast<int>(i)] * widths[static_cast<int>(j)];
-            if (!(product > 0)) continue;
-            fit.correlations[k * fit.values.size() + static_cast<std::size_t>(moving[j])] =
-                curvature.inverse()(static_cast<int>(i), static_cast<int>(j)) / product;
+    if (changing.empty() || problem.values() <= problem.inputs()) return;
+    const auto size = static_cast<Eigen::Index>(changing.size());
+    Eigen::MatrixXd directions(problem.values(), size);
+    for (Eigen::Index i = 0; i < size; ++i) directions.col(i) = jacobian.col(changing[i]) / lengths[changing[i]];
+    const Eigen::JacobiSVD<Eigen::MatrixXd> parts(directions, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    const VectorXd& strengths = parts.singularValues();
+    const double variance = sum_of_squares / (problem.values() - problem.inputs());
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(size, size), free = covariance;
+    for (Eigen::Index k = 0; k < size; ++k) {
+        const VectorXd direction = parts.matrixV().col(k);
+        const bool is_free = strengths[k] < combined * strengths[0];
+        (is_free ? free : covariance) +=
+            direction * direction.transpose() * (is_free ? 1 : 1 / (strengths[k] * strengths[k]));
+    }
+    for (Eigen::Index i = 0; i < size; ++i) {
+        const auto own = static_cast<std::size_t>(changing[i]);
+        const bool is_decided = free(i, i) < 1e-6;
+        if (is_decided)
+            fit.errors[own] = std::sqrt(variance * covariance(i, i)) / lengths[changing[i]] * problem.unit(changing[i]);
+        for (Eigen::Index j = 0; j < size; ++j) {
+            const bool both_free = !is_decided && free(j, j) >= 1e-6;
+            const Eigen::MatrixXd& of = both_free ? free : covariance;
+            const double scale = std::sqrt(of(i, i) * of(j, j));
+            fit.correlations[own][static_cast<std::size_t>(changing[j])] = scale > 0 ? of(i, j) / scale : 0;
         }
     }
 }
@@ -123,7 +134,7 @@ LeastSquares fit_least_squares(const std::vector<FreeParameter>& parameters, con
     VectorXd rest(problem.values());
     problem(x, rest);
     fit.residual = std::sqrt(rest.squaredNorm() / problem.values());
-    add_errors(fit, problem, x, rest.squaredNorm());
+    add_errors(problem, x, rest.squaredNorm(), fit);
     fit.evaluations = problem.evaluations();
     return fit;
 }

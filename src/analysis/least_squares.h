@@ -16,14 +16,11 @@ struct FreeParameter {
 struct LeastSquares {
     std::vector<double> values;  ///< values of the parameters
     std::vector<double> errors;  ///< standard errors; NaN where the residuals do not decide a parameter
-    double residual = 0;         ///< root mean square
+    /// Of two parameters, how much a change of one makes up for that of the other: 1 or -1 where it does wholly, so
+    /// that the residuals tell only one of the two. 0 with a parameter that changes no residual.
+    std::vector<std::vector<double>> correlations;
+    double residual = 0;  ///< root mean square
     int evaluations = 0;
-    std::vector<double> correlations;  ///< of the errors, a row for each parameter; empty if none is known
-
-    /// 0 where it is not known.
-    double correlation(std::size_t one, std::size_t other) const {
-        return correlations.empty() ? 0 : correlations[one * values.size() + other];
-    }
 };
 
 /// As many residuals for all values of the parameters.

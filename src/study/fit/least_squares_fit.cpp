@@ -156,7 +156,7 @@ FitResult fit_least_squares(const FitTask& task, const LeastSquaresOptions& opti
         result.parameters.push_back(
             {task.unknowns[k].name, best.values[k], best.errors[k], std::nan(""), std::nan(""), is_decided});
         for (std::size_t other = 0; other < k; ++other) {
-            const double correlation = best.correlation(k, other);
+            const double correlation = best.correlations[k][other];
             if (std::abs(correlation) > hardly_told_apart) result.inseparable.push_back({other, k, correlation});
         }
     }

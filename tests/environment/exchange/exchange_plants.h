@@ -77,6 +77,7 @@ public:
     std::vector<double> parameters(std::size_t plant = 0) const {
         return {strings_[plant].parameters.begin(), strings_[plant].parameters.end()};
     }
+    std::size_t count() const { return strings_.size(); }
     Model& model() { return model_; }
     Interpretation& interpretation(std::size_t plant) { return interpretations_[plant]; }
 

@@ -2,6 +2,7 @@
 
 #include "base/number.h"
 #include "base/text.h"
+#include "base/unit_text.h"
 #include "environment/given/weather/weather_table.h"
 
 #include <fmt/format.h>
@@ -34,24 +35,8 @@ std::optional<int> digits(const std::string& text, std::size_t at, std::size_t c
 }  // namespace
 
 ColumnHead ColumnHead::of(const std::string& cell) {
-    const std::size_t open = cell.find_first_of("(["), close = cell.find_last_of(")]");
-    if (open == std::string::npos || close == std::string::npos || close < open) {
-        return {in_small_letters(trimmed(cell)), ""};
-    }
-    return {in_small_letters(trimmed(cell.substr(0, open))),
-            std::string(trimmed(cell.substr(open + 1, close - open - 1)))};
-}
-
-std::string plain_unit(std::string unit) {
-    static const std::vector<std::pair<std::string, std::string>> letters{
-        {"\xC2\xB5", "u"}, {"\xCE\xBC", "u"}, {"\xE2\x81\xBB", "-"}, {"\xC2\xB2", "2"},
-        {"\xC2\xB9", "1"}, {"\xC2\xB7", " "}, {"\xE2\x88\x92", "-"}, {"^", ""}};
-    for (const auto& [from, to] : letters) {
-        for (std::size_t at = unit.find(from); at != std::string::npos; at = unit.find(from, at)) {
-            unit.replace(at, from.size(), to);
-        }
-    }
-    return unit;
+    NameAndUnit both = name_and_unit(cell);
+    return {in_small_letters(both.name), std::move(both.unit)};
 }
 
 void refuse_unit(const Place& place, const ColumnHead& head, const std::vector<std::string>& units,

@@ -15,8 +15,6 @@ struct ColumnHead {
     static ColumnHead of(const std::string& cell);
 };
 
-/// The unit with the letters that stand on every keyboard: "umol m-2 s-1" of "\u00b5mol m\u207b\u00b2 s\u207b\u00b9".
-std::string plain_unit(std::string unit);
 /// Throws UserError for a column whose unit is none of these.
 [[noreturn]] void refuse_unit(const Place& place, const ColumnHead& head, const std::vector<std::string>& units,
                               const std::string& hint = "");

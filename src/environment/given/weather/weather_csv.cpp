@@ -1,5 +1,6 @@
 // Tables whose header names columns and units.
 #include "base/text.h"
+#include "base/unit_text.h"
 #include "environment/given/weather/series_clock.h"
 #include "environment/given/weather/weather_formats.h"
 

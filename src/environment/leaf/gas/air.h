@@ -9,6 +9,7 @@ inline constexpr double stefan_boltzmann = 5.670374419e-8;  ///< W m-2 K-4
 inline constexpr double kelvin = 273.15;
 inline constexpr double molar_heat = 29.3;            ///< of air, J mol-1 K-1 (Campbell & Norman 1998)
 inline constexpr double water_molar_mass = 0.018015;  ///< kg mol-1
+inline constexpr double water_density = 0.998;        ///< g cm-3
 inline constexpr double sea_level = 101.325;          ///< kPa
 inline constexpr double vapour_to_carbon = 1.6;       ///< ratio of diffusivities of water vapour and CO2 in still air
 

@@ -21,6 +21,8 @@ public:
         : leaf_(leaf),
           light_(light),
           air_(air),
+          stomata_(leaf.stomata.at_potential(potential)),
+          potential_(potential),
           factor_(leaf.stomata.by_potential(potential)),
           layer_(BoundaryLayer::forced(leaf.width, air.wind)),
           absorbed_(light.short_wave() + leaf.emissivity * light.thermal),
@@ -47,6 +49,24 @@ public:
         found.latent = latent_heat(temperature_) * found.transpiration;
         found.sent = sent(temperature_);
         return found;
+    }
+
+    /// After found(): stomata answer g = opening(g, psi), so that dg/dpsi is its slope with psi over 1 less that with
+    /// g.
+    double transpiration_by_potential(const GasExchange& found) {
+        constexpr double share = 1e-5, step = 1e-5;  // of g; MPa
+        const double g = found.conductance;
+        if (!(g > 0)) return 0;
+        const AtSurface at = surface(g, found.assimilation);
+        const auto opened = [&](double potential) {
+            return leaf_.stomata.at_potential(potential).opening(at, leaf_.stomata.by_potential(potential)).conductance;
+        };
+        const double by_potential = (opened(potential_ + step) - opened(potential_ - step)) / (2 * step);
+        if (!(by_potential > 0)) return 0;
+        const double wider = (1 + share) * g;
+        const double by_conductance = wish(wider) / (share * g);  // of the wish, which was 0: below 0
+        const double lost = transpiration(wider, saturation_) - found.transpiration;
+        return by_conductance < 0 ? std::max(0.0, lost / (share * g) * by_potential / -by_conductance) : 0;
     }
 
 private:
@@ -104,24 +124,23 @@ private:
     /// What stomata answer to this conductance, less it.
     double wish(double g) {
         const double rate = open(g).rate;
-        return leaf_.stomata.opening(surface(g, rate), factor_).conductance - g;
+        return stomata_.opening(surface(g, rate), factor_).conductance - g;
     }
 
     /// As far as the air lets it breathe, stomata could not open further than this.
     double upper_bound(double lower) {
         const double rate = open(layer_.carbon_dioxide() * 1e3).rate;
         const double vapour_excess = std::max(saturation_ - air_.vapour_pressure, 0.0);
-        double bound =
-            rate > 0 ? leaf_.stomata.upper_bound(surface(0, rate), factor_, layer_.vapour, vapour_excess) : 0;
+        double bound = rate > 0 ? stomata_.upper_bound(surface(0, rate), factor_, layer_.vapour, vapour_excess) : 0;
         bound = 2 * std::max(bound, lower);
         for (int step = 0; step < most_steps && wish(bound) > 0; ++step) bound *= 2;
         return bound;
     }
 
     double conductance() {
-        const double lower = std::max(leaf_.stomata.least, closed);
+        const double lower = std::max(stomata_.least, closed);
         const double at_lower = wish(lower);
-        if (at_lower <= 0) return leaf_.stomata.least;
+        if (at_lower <= 0) return stomata_.least;
         const double upper = upper_bound(lower);
         return root(lower, at_lower, upper, wish(upper));
     }
@@ -149,7 +168,8 @@ private:
     const LeafKind& leaf_;
     const LeafLight& light_;
     const Air& air_;
-    double factor_;
+    Stomata stomata_;  ///< at the potential
+    double potential_, factor_;
     BoundaryLayer layer_;
     double absorbed_;
     bool is_held_ = false;
@@ -183,6 +203,12 @@ GasExchange gas_exchange(const LeafKind& leaf, const LeafLight& light, const Air
     return SoughtLeaf(leaf, light, air, potential).found();
 }
 
+SlopingExchange sloping_gas_exchange(const LeafKind& leaf, const LeafLight& light, const Air& air, double potential) {
+    SoughtLeaf sought(leaf, light, air, potential);
+    const GasExchange found = sought.found();
+    return {found, sought.transpiration_by_potential(found)};
+}
+
 GasExchange gas_exchange_at(const LeafKind& leaf, const LeafLight& light, const Air& air, double temperature,
                             double potential) {
     SoughtLeaf sought(leaf, light, air, potential);
@@ -195,7 +221,8 @@ Residuals residuals_of(const GasExchange& found, const LeafKind& leaf, const Lea
     const Limits limits = limits_of(leaf.photosynthesis, light.photons, found.temperature, air.pressure);
     const double saturation = saturation_pressure(found.temperature);
     const AtSurface surface{found.assimilation, found.at_surface, found.deficit, saturation, limits.compensation};
-    const double opening = leaf.stomata.opening(surface, leaf.stomata.by_potential(potential)).conductance;
+    const double opening =
+        leaf.stomata.at_potential(potential).opening(surface, leaf.stomata.by_potential(potential)).conductance;
     const double used = limits.at(found.internal);
     const double respired = leaf.photosynthesis.respiration.at(found.temperature);
     const double supplied = found.conductance / vapour_to_carbon * (found.at_surface - found.internal);

@@ -59,6 +59,12 @@ struct Residuals {
 /// Solves the four equations for a leaf whose water potential is `potential` (MPa). Dew is not modelled: stomata alone
 /// let vapour through. Throws RunError where it finds no temperature within 60 K of the air's.
 GasExchange gas_exchange(const LeafKind& leaf, const LeafLight& light, const Air& air, double potential = 0);
+/// The same, and how transpiration changes with the potential, mol m-2 s-1 MPa-1.
+struct SlopingExchange {
+    GasExchange leaf;
+    double transpiration_by_potential = 0;
+};
+SlopingExchange sloping_gas_exchange(const LeafKind& leaf, const LeafLight& light, const Air& air, double potential);
 /// The same where the temperature of the leaf is known, as in a chamber; the energy is that which it would need.
 GasExchange gas_exchange_at(const LeafKind& leaf, const LeafLight& light, const Air& air, double temperature,
                             double potential = 0);

@@ -6,28 +6,54 @@
 
 namespace espalier::environment::leaf {
 
-LeafKind read_leaf_kind(const Settings& settings) {
+LeafKind usual_leaf() {
     LeafKind leaf;
+    leaf.stomata.least = 0.005;
+    return leaf;
+}
+
+namespace {
+
+const char* name_of(Stomata::Form form) {
+    return form == Stomata::Form::leuning ? "leuning" : form == Stomata::Form::ball_berry ? "ball-berry" : "medlyn";
+}
+
+/// The pathway and the form of stomata, with the usual parameters of others than those of `common`.
+LeafKind read_forms(const Settings& settings, const LeafKind& common) {
+    LeafKind leaf = common;
+    const bool was_c4 = common.photosynthesis.pathway == Pathway::c4;
+    const bool is_c4 = settings.choice_or("pathway", was_c4 ? "c4" : "c3", {"c3", "c4"}) == "c4";
+    const std::string form =
+        settings.choice_or("stomata", name_of(common.stomata.form), {"medlyn", "leuning", "ball-berry"});
+    if (is_c4 != was_c4) leaf.photosynthesis = is_c4 ? Photosynthesis::of_c4() : Photosynthesis();
+    leaf.stomata.form = form == "leuning"      ? Stomata::Form::leuning
+                        : form == "ball-berry" ? Stomata::Form::ball_berry
+                                               : Stomata::Form::medlyn;
+    if (is_c4 != was_c4 || leaf.stomata.form != common.stomata.form) {
+        leaf.stomata.slope = leaf.stomata.form != Stomata::Form::medlyn ? 9 : is_c4 ? 1.6 : 4;
+    }
+    return leaf;
+}
+
+}  // namespace
+
+LeafKind read_leaf_kind(const Settings& settings, const LeafKind& common) {
+    LeafKind leaf = read_forms(settings, common);
     Photosynthesis& rates = leaf.photosynthesis;
-    if (settings.choice_or("pathway", "c3", {"c3", "c4"}) == "c4") {
-        rates = Photosynthesis::of_c4();
+    if (rates.pathway == Pathway::c4) {
         rates.carboxylation_pep.at_25 = settings.number_or("vp", rates.carboxylation_pep.at_25, Range::positive());
-        leaf.stomata.slope = 1.6;
     }
     rates.carboxylation.at_25 = settings.number_or("v", rates.carboxylation.at_25, Range::positive());
     rates.electron_transport.at_25 = settings.number_or("jmax", rates.electron_transport.at_25, Range::positive());
     rates.respiration.at_25 = settings.number_or("rd", rates.respiration.at_25, Range::not_negative());
     if (settings.has("tpu")) rates.phosphate_use = settings.number("tpu", Range::positive());
     Stomata& stomata = leaf.stomata;
-    const std::string form = settings.choice_or("stomata", "medlyn", {"medlyn", "leuning", "ball-berry"});
-    if (form == "leuning") stomata.form = Stomata::Form::leuning;
-    if (form == "ball-berry") stomata.form = Stomata::Form::ball_berry;
-    if (form != "medlyn") stomata.slope = 9;
-    stomata.least = settings.number_or("g0", 0.005, Range::between(0, 5));
+    stomata.least = settings.number_or("g0", stomata.least, Range::between(0, 5));
     stomata.slope = settings.number_or("g1", stomata.slope, Range::between(0, 100));
     stomata.deficit_0 = settings.number_or("d0", stomata.deficit_0, Range::positive());
-    stomata.sensitivity = settings.number_or("sf", 0, Range::between(0, 50));
+    stomata.sensitivity = settings.number_or("sf", stomata.sensitivity, Range::between(0, 50));
     stomata.reference = settings.number_or("psi_f", stomata.reference, Range::between(-20, 0));
+    stomata.dry = settings.number_or("psi_dry", stomata.dry, Range::between(-100, 0));
     leaf.width = settings.number_or("width", leaf.width, Range::between(1e-4, 10));
     return leaf;
 }
@@ -87,6 +113,7 @@ g1             4 kPa^0.5 (c4: 1.6), or 9 of the other forms; slope
 d0             1.5 kPa; of Leuning's form
 sf             0 MPa-1; how steeply stomata close with the water potential (Tuzet et al. 2003); 0: not at all
 psi_f          -2 MPa; where they have closed half-way
+psi_dry        -5 MPa; below it a leaf has dried, and its least conductance falls, too, e-fold in 0.5 MPa
 width          0.05 m; of a leaf along the wind
 )";
     return text;

@@ -10,8 +10,12 @@
 
 namespace espalier::environment::leaf {
 
-/// Reads `pathway`, `v`, `jmax`, `rd`, `tpu`, `stomata`, `g0`, `g1`, `d0`, `sf`, `psi_f`, `width`.
-LeafKind read_leaf_kind(const Settings& settings);
+/// The leaf of a scene that says nothing: C3, with a g0 of 0.005 mol m-2 s-1.
+LeafKind usual_leaf();
+
+/// Reads `pathway`, `v`, `jmax`, `rd`, `tpu`, `stomata`, `g0`, `g1`, `d0`, `sf`, `psi_f`, `psi_dry`, `width`. What is
+/// not there is as in `common`; with another pathway or form of stomata, their parameters are the usual ones.
+LeafKind read_leaf_kind(const Settings& settings, const LeafKind& common = usual_leaf());
 
 /// The keys `humidity`, 0 to 1, and `co2`, umol mol-1, of which errors say what to write instead of % and Pa.
 double read_humidity(const Settings& settings, double fallback);

@@ -40,6 +40,17 @@ double Stomata::by_potential(double potential) const {
     return (1 + math::exp(sensitivity * reference)) / (1 + math::exp(sensitivity * (reference - potential)));
 }
 
+double Stomata::least_at(double potential) const {
+    constexpr double width = 0.5;  // MPa
+    return potential < dry ? least * math::exp((potential - dry) / width) : least;
+}
+
+Stomata Stomata::at_potential(double potential) const {
+    Stomata stomata = *this;
+    stomata.least = least_at(potential);
+    return stomata;
+}
+
 Opening Stomata::opening(const AtSurface& surface, double factor) const {
     if (!(surface.assimilation > 0)) return {least, 0, 0, 0};
     AtSurface at = surface;

@@ -31,9 +31,14 @@ struct Stomata {
     // By the water potential of the leaf (Tuzet, Perrier & Leuning 2003).
     double sensitivity = 0;  ///< sf, MPa-1; 0: stomata do not know it
     double reference = -2;   ///< psi_f, MPa
+    double dry = -5;        ///< psi_dry, MPa: below it `least` falls, too, e-fold in 0.5 MPa
 
     /// f, from 1 of a wet leaf to 0: (1 + exp(sf psi_f)) / (1 + exp(sf (psi_f - psi))), psi in MPa.
     double by_potential(double potential) const;
+    /// The least conductance at a water potential, MPa: a leaf that has dried gives nothing.
+    double least_at(double potential) const;
+    /// The same stomata where the least conductance is that of a potential.
+    Stomata at_potential(double potential) const;
     Opening opening(const AtSurface& surface, double factor) const;
     /// Not below the conductance at any surface of this leaf, whose A is at most this: where a search begins. `vapour`
     /// is the conductance of the boundary layer, `excess` the vapour pressure in the leaf above that of the air.

@@ -7,7 +7,7 @@
 namespace espalier::environment {
 namespace {
 
-constexpr std::uint16_t leaf = 0, stem = 1;
+constexpr std::uint16_t first_leaf = 0, first_stem = 1;
 
 /// What is known of a band without a word of the scene.
 struct DefaultOptics {
@@ -65,8 +65,8 @@ void Optics::read_band(const std::string& name, const Settings& table) {
     const DefaultOptics known = defaults_of(name);
     const Range share = Range::between(0, 1);
     const double of_stem = table.number_or("stem", known.stem, share);
-    materials_[leaf][band] = read_sides(table, "leaf", known.leaf);
-    materials_[stem][band] = {{of_stem, 0}, {of_stem, 0}};
+    materials_[first_leaf][band] = read_sides(table, "leaf", known.leaf);
+    materials_[first_stem][band] = {{of_stem, 0}, {of_stem, 0}};
     soil_dark_[band] = table.number_or("soil", known.soil, share);
     soil_bright_[band] = map_.empty() ? soil_dark_[band] : table.number_or("soil_bright", soil_dark_[band], share);
     solids_[band] = table.number_or("solid", 0, share);
@@ -76,7 +76,7 @@ void Optics::read_material(const Settings& table) {
     const auto number = static_cast<std::uint16_t>(materials_.size());
     lists_materials_ = true;
     names_.push_back(table.text("name"));
-    materials_.push_back(materials_[leaf]);
+    materials_.push_back(materials_[first_leaf]);
     for (std::size_t band = 0; band < bands_.size(); ++band) {
         TwoSides& optics = materials_.back()[band];
         if (table.has(bands_[band].name)) optics = read_sides(table, bands_[band].name, optics.front);
@@ -103,8 +103,8 @@ std::optional<std::uint16_t> Optics::material_of(LitKind kind, std::uint16_t col
     for (const auto& [known, material] : by_colour_) {
         if (known == colour) return material;
     }
-    if (kind != LitKind::leaf) return stem;
-    return lists_materials_ ? others_ : std::optional(leaf);
+    if (kind != LitKind::leaf) return first_stem;
+    return lists_materials_ ? others_ : std::optional(first_leaf);
 }
 
 std::uint16_t Optics::require_material(LitKind kind, std::uint16_t colour, std::uint32_t plant) const {

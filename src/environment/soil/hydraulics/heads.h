@@ -11,8 +11,11 @@
 
 namespace espalier::environment {
 
+/// Of water of 1 g/cm3 at 9.80665 m/s2.
+inline constexpr double cm_per_megapascal = 1e6 / 98.0665;
+
 /// Of a unit by its name, "cm", "mm", "m", "Pa", "hPa", "kPa", "MPa", "bar" or "pF": what makes a number of it a head
-/// in cm. Water of 1 g/cm3 at 9.80665 m/s2, so that 1 MPa is 10197.2 cm; pF is log10 of -head (Schofield 1935). Throws
+/// in cm, so that 1 MPa is 10197.2 cm; pF is log10 of -head (Schofield 1935). Throws
 /// UserError at `place` for another name.
 std::function<double(double)> head_unit(const std::string& name, const Place& place);
 

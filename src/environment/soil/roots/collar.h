@@ -4,6 +4,7 @@
 #include "espalier/base/settings.h"
 
 #include "environment/given/weather/time_series.h"
+#include "environment/soil/roots/hydraulic_tree.h"
 
 #include <string>
 
@@ -24,6 +25,14 @@ struct RootCollar {
     double level(double day) const;
     /// The longest span that shows how the demand changes.
     double longest_span(double day) const;
+};
+
+/// A shoot that is solved with the roots.
+class CollarEnd {
+public:
+    virtual ~CollarEnd() = default;
+    /// Returns the total head at the collar, cm, where the shoot takes what the roots supply.
+    virtual double meet(const CollarView& supply) = 0;
 };
 
 }  // namespace espalier::environment

@@ -62,22 +62,33 @@ void PlantUptake::surround(const WaterBrick& lengths, bool zone) {
     }
 }
 
+void PlantUptake::begin(std::span<const SoilPoint> points) {
+    if (begun_) return;
+    for (std::size_t i = 0; i < radial_.size(); ++i) {
+        if (roots_.cells[i] != PlantRoots::no_cell) water_.xylem[i] = points[roots_.cells[i]].head;
+    }
+    begun_ = true;
+}
+
 void PlantUptake::solve(std::span<const SoilPoint> points, UptakeModel model, const RootCollar& collar,
                         const FeddesHeads& feddes, double demand, double held_head) {
     if (roots_.pieces.empty()) return;
-    if (!begun_) {
-        for (std::size_t i = 0; i < radial_.size(); ++i) {
-            if (roots_.cells[i] != PlantRoots::no_cell) water_.xylem[i] = points[roots_.cells[i]].head;
-        }
-        begun_ = true;
-    }
+    begin(points);
     water_.demand = collar.held ? std::nan("") : demand;
-    if (model == UptakeModel::network) return solve_network(points, collar, demand, held_head);
-    solve_macroscopic(points, model, collar, feddes, demand, held_head);
+    if (model != UptakeModel::network) return solve_macroscopic(points, model, collar, feddes, demand, held_head);
+    solve_network(points, [&](const CollarView& view) {
+        if (collar.held) return held_head + roots_.collar_height;
+        const double limit = collar.limit + roots_.collar_height;
+        return view.conductance > 0 ? std::max(view.head - demand / view.conductance, limit) : limit;
+    });
 }
 
-/// Newton's method: around each piece the flow through soil and root wall is replaced by its tangent, and the tree of
-/// these is solved exactly.
+void PlantUptake::solve_under(std::span<const SoilPoint> points, CollarEnd& shoot) {
+    if (roots_.pieces.empty()) return;
+    begin(points);
+    solve_network(points, [&](const CollarView& view) { return shoot.meet(view); });
+}
+
 void PlantUptake::pass(double days, double weight, double before) {
     const std::vector<double>& now = water_.uptake;
     if (rates_.size() != now.size()) {
@@ -100,8 +111,10 @@ double PlantUptake::mean_uptake(std::size_t piece) const {
     return days_ > 0 ? taken_[piece] / days_ : water_.uptake[piece];
 }
 
-void PlantUptake::solve_network(std::span<const SoilPoint> points, const RootCollar& collar, double demand,
-                                double held_head) {
+/// Newton's method: around each piece the flow through soil and root wall is replaced by its tangent, and the tree of
+/// these is solved exactly.
+void PlantUptake::solve_network(std::span<const SoilPoint> points,
+                                const std::function<double(const CollarView&)>& collar_head) {
     const std::size_t count = radial_.size();
     for (int step = 0; step < 60; ++step) {
         for (std::size_t i = 0; i < count; ++i) {
@@ -116,11 +129,7 @@ void PlantUptake::solve_network(std::span<const SoilPoint> points, const RootCol
             water_.by_head[i] = flow.by_soil * piece.surface_per_length * piece.length;
         }
         const CollarView view = tree_.look(roots_.pieces);
-        double head = held_head + roots_.collar_height;
-        if (!collar.held) {
-            const double limit = collar.limit + roots_.collar_height;
-            head = view.conductance > 0 ? std::max(view.head - demand / view.conductance, limit) : limit;
-        }
+        const double head = collar_head(view);
         tree_.flow(roots_.pieces, head, flow_);
         double moved = 0;
         for (std::size_t i = 0; i < count; ++i) {

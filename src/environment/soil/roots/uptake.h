@@ -5,6 +5,7 @@
 #include "environment/soil/roots/plant_roots.h"
 #include "environment/soil/roots/zone.h"
 
+#include <functional>
 #include <span>
 
 namespace espalier::environment {
@@ -48,6 +49,8 @@ public:
     /// Solves for `points`, the soil's state, to a residual of 1e-9 of the flow; `demand` in cm3/d, or a held head.
     void solve(std::span<const SoilPoint> points, UptakeModel model, const RootCollar& collar,
                const FeddesHeads& feddes, double demand, double held_head);
+    /// The same with the network of roots under a shoot that takes what it needs.
+    void solve_under(std::span<const SoilPoint> points, CollarEnd& shoot);
     /// So many days have passed, in which the roots took up `weight` times what was solved last and the rest times what
     /// they took up before; `before`: that of the plant, cm3/d.
     void pass(double days, double weight, double before);
@@ -55,7 +58,8 @@ public:
     double mean_uptake(std::size_t piece) const;
 
 private:
-    void solve_network(std::span<const SoilPoint> points, const RootCollar& collar, double demand, double held_head);
+    void begin(std::span<const SoilPoint> points);
+    void solve_network(std::span<const SoilPoint> points, const std::function<double(const CollarView&)>& collar_head);
     void solve_macroscopic(std::span<const SoilPoint> points, UptakeModel model, const RootCollar& collar,
                            const FeddesHeads& feddes, double demand, double held_head);
     void measure_conductance();
