@@ -1,7 +1,8 @@
 // Grows models and scenes, and prints digests of all that they are after some steps: compiled for this machine and for
 // pages, its lines are compared by `./dev web --check`.
 //
-//     same_bytes STEPS FILE...     a line a file: its strings, what is drawn, its fields and measures, or why it does not grow
+//     same_bytes STEPS FILE...     a line a file: its strings, what is drawn, its fields and measures, or why it does
+//     not grow
 #include "espalier/base/read_log.h"
 #include "espalier/base/stop.h"
 #include "espalier/simulation/world.h"

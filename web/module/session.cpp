@@ -2,12 +2,13 @@
 //
 // The worker's script (studio/source/worker.ts) calls these functions and takes what is said by two functions of the
 // module, `said(text)` and `sent(bytes)`.
+#include "studio/session/session.h"
+
 #include "espalier/studio/studio.h"
 
 #include "app/look/studio_documents.h"
 #include "base/reason.h"
 #include "studio/growth/workers.h"
-#include "studio/session/session.h"
 
 #include <nlohmann/json.hpp>
 
@@ -18,9 +19,8 @@
 #include <utility>
 
 EM_JS(void, say_text, (const char* text), { Module.said(UTF8ToString(text)); });
-EM_JS(void, send_bytes_of, (const char* bytes, unsigned count), {
-    Module.sent(HEAPU8.slice(bytes, bytes + count).buffer);
-});
+EM_JS(void, send_bytes_of, (const char* bytes, unsigned count),
+      { Module.sent(HEAPU8.slice(bytes, bytes + count).buffer); });
 
 namespace espalier::studio {
 namespace {
@@ -42,9 +42,8 @@ private:
 
 class WebStudio {
 public:
-    explicit WebStudio(const Json& begin) : options_(options_of(begin)), session_(options_, [this](auto work) {
-                                                posted_.push_back(std::move(work));
-                                            }) {
+    explicit WebStudio(const Json& begin)
+        : options_(options_of(begin)), session_(options_, [this](auto work) { posted_.push_back(std::move(work)); }) {
         session_.join(page_);
     }
 

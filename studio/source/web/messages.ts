@@ -36,4 +36,6 @@ export type FromWorker =
   | { kind: "failed"; why: string }
   | { kind: "heard" }
   | { kind: "kept"; files: KeptFile[] }
-  | { kind: "file"; number: number; bytes: Uint8Array<ArrayBuffer> | null };
+  | { kind: "file"; number: number; bytes: Uint8Array<ArrayBuffer> | null }
+  /** A file that lies beside the page, by its path from there. */
+  | { kind: "beside"; number: number; path: string };

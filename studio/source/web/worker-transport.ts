@@ -57,6 +57,7 @@ export class WorkerTransport implements Transport {
   private saves = 0;
   private readonly files = new Map<number, (bytes: Uint8Array<ArrayBuffer> | null) => void>();
 
+
   constructor(private readonly events: TransportEvents) {
     this.begin().catch((error) => events.closed(error instanceof Error ? error.message : String(error)));
   }
@@ -117,11 +118,20 @@ export class WorkerTransport implements Transport {
       if (this.saves > 0) download(data.files);
       keepFiles(data.files);
     } else if (data.kind === "file") {
-      this.files.get(data.number)?.(data.bytes);
-      this.files.delete(data.number);
+      this.hand(data.number, data.bytes);
+    } else if (data.kind === "beside") {
+      void part(data.path).then(
+        (bytes) => this.hand(data.number, new Uint8Array(bytes)),
+        () => this.hand(data.number, null),
+      );
     } else {
       this.end(data.why);
     }
+  }
+
+  private hand(number: number, bytes: Uint8Array<ArrayBuffer> | null): void {
+    this.files.get(number)?.(bytes);
+    this.files.delete(number);
   }
 
   /** The worker that follows is told again what this one has not heard; where it was to stop, it grows no further. */

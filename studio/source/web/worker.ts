@@ -26,6 +26,7 @@ declare const self: {
 
 const tick = 100; // ms
 const turns = 20; // ms between two looks for messages
+const library = "/library/";
 const kept = ["/state", "/home"]; // folders whose files the page keeps
 
 let module: Module | null = null;
@@ -87,7 +88,7 @@ async function begin(message: ToWorker & { kind: "begin" }): Promise<void> {
     },
   });
   for (const folder of ["/library", "/scratch", ...kept]) made.FS.mkdirTree(folder);
-  unpackLibrary(message.library, (path, bytes) => write(made.FS, `/library/${path}`, bytes));
+  unpackLibrary(message.library, (path, bytes) => write(made.FS, library + path, bytes));
   for (const [path, bytes] of message.kept) if (bytes) write(made.FS, path, bytes);
   made.FS.chdir("/library");
   module = made;
@@ -111,7 +112,10 @@ function write(files: FileSystem, path: string, bytes: Uint8Array): void {
 
 function sendFile({ FS }: Module, number: number): void {
   const path = call("file", "string", number) as string;
-  self.postMessage({ kind: "file", number, bytes: path ? FS.readFile(path).slice() : null });
+  const bytes = path ? FS.readFile(path).slice() : null;
+  // Pictures of the library are there by their names alone.
+  if (bytes?.length === 0 && path.startsWith(library)) self.postMessage({ kind: "beside", number, path: path.slice(library.length) });
+  else self.postMessage({ kind: "file", number, bytes });
 }
 
 function hear(message: ToWorker): void {

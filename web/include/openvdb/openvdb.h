@@ -1,6 +1,6 @@
-// A small grid of floats for pages, which stands where OpenVDB stands on a machine: blocks of 8 x 8 x 8 voxels in a hash
-// table, and boxes of one value. It has the names and the arithmetic of what Espalier calls of OpenVDB (Museth 2013), so
-// that the same sources serve both, and answers with the same bits.
+// A small grid of floats for pages, which stands where OpenVDB stands on a machine: blocks of 8 x 8 x 8 voxels in a
+// hash table, and boxes of one value. It has the names and the arithmetic of what Espalier calls of OpenVDB (Museth
+// 2013), so that the same sources serve both, and answers with the same bits.
 #pragma once
 
 #include <algorithm>
@@ -37,10 +37,18 @@ struct Vec3d {
     double operator[](int axis) const { return parts[static_cast<std::size_t>(axis)]; }
     bool operator==(const Vec3d&) const = default;
 
-    Vec3d& operator+=(const Vec3d& other) { return each(other, [](double a, double b) { return a + b; }); }
-    Vec3d& operator-=(const Vec3d& other) { return each(other, [](double a, double b) { return a - b; }); }
-    Vec3d& operator*=(const Vec3d& other) { return each(other, [](double a, double b) { return a * b; }); }
-    Vec3d& operator/=(double by) { return each(Vec3d(by), [](double a, double b) { return a / b; }); }
+    Vec3d& operator+=(const Vec3d& other) {
+        return each(other, [](double a, double b) { return a + b; });
+    }
+    Vec3d& operator-=(const Vec3d& other) {
+        return each(other, [](double a, double b) { return a - b; });
+    }
+    Vec3d& operator*=(const Vec3d& other) {
+        return each(other, [](double a, double b) { return a * b; });
+    }
+    Vec3d& operator/=(double by) {
+        return each(Vec3d(by), [](double a, double b) { return a / b; });
+    }
     friend Vec3d operator+(Vec3d a, const Vec3d& b) { return a += b; }
     friend Vec3d operator-(Vec3d a, const Vec3d& b) { return a -= b; }
     friend Vec3d operator*(Vec3d a, const Vec3d& b) { return a *= b; }
@@ -60,8 +68,12 @@ public:
     explicit Coord(std::int32_t all) : parts_{all, all, all} {}
     Coord(std::int32_t x, std::int32_t y, std::int32_t z) : parts_{x, y, z} {}
 
-    static Coord floor(const Vec3d& at) { return of(at, [](double part) { return std::floor(part); }); }
-    static Coord round(const Vec3d& at) { return of(at, [](double part) { return std::floor(part + 0.5); }); }
+    static Coord floor(const Vec3d& at) {
+        return of(at, [](double part) { return std::floor(part); });
+    }
+    static Coord round(const Vec3d& at) {
+        return of(at, [](double part) { return std::floor(part + 0.5); });
+    }
 
     std::int32_t x() const { return parts_[0]; }
     std::int32_t y() const { return parts_[1]; }
@@ -116,9 +128,7 @@ public:
     const Coord& min() const { return least_; }
     const Coord& max() const { return most_; }
     bool operator==(const CoordBBox&) const = default;
-    bool empty() const {
-        return least_.x() > most_.x() || least_.y() > most_.y() || least_.z() > most_.z();
-    }
+    bool empty() const { return least_.x() > most_.x() || least_.y() > most_.y() || least_.z() > most_.z(); }
     Coord dim() const { return empty() ? Coord(0) : (most_ - least_).offsetBy(1); }
     Index64 volume() const {
         const Coord size = dim();

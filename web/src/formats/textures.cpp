@@ -29,9 +29,12 @@ OpacityPicture bark_picture(const std::filesystem::path& file, TextureMap map) {
     if (map == TextureMap::colours && bark.picture) return picture_of(*bark.picture);
     const archive::HeightMap heights = archive::heights_of(bark);
     switch (map) {
-        case TextureMap::normals: return archive::normals_of(bark, heights);
-        case TextureMap::heights: return archive::grey_of(heights);
-        default: return archive::shades_of(bark, heights);
+        case TextureMap::normals:
+            return archive::normals_of(bark, heights);
+        case TextureMap::heights:
+            return archive::grey_of(heights);
+        default:
+            return archive::shades_of(bark, heights);
     }
 }
 

@@ -6,7 +6,8 @@ namespace espalier::archive {
 namespace {
 
 [[noreturn]] void refuse() {
-    throw UserError("a page makes no smooth skins, which are level sets of OpenVDB: the program that is installed does");
+    throw UserError(
+        "a page makes no smooth skins, which are level sets of OpenVDB: the program that is installed does");
 }
 
 }  // namespace

@@ -12,7 +12,8 @@ ExportRun::ExportRun(ExportOrder order, Workers& workers, Progressed progressed,
     : order_(std::move(order)),
       progressed_(std::move(progressed)),
       done_(std::move(done)),
-      running_(workers.run([this] { done_({}, "a page writes no files for other programs: `espalier export` does"); })) {}
+      running_(
+          workers.run([this] { done_({}, "a page writes no files for other programs: `espalier export` does"); })) {}
 
 ExportRun::~ExportRun() = default;
 

@@ -1,11 +1,11 @@
 // A recorded run, which a page does not open: it would have to read files of VTK.
 #pragma once
 
+#include "espalier/base/error.h"
+
 #include "studio/growth/growth.h"
 #include "studio/growth/plant_source.h"
 #include "studio/growth/workers.h"
-
-#include "espalier/base/error.h"
 
 namespace espalier::studio {
 
@@ -34,8 +34,9 @@ public:
 
 private:
     [[noreturn]] static void refuse() {
-        throw UserError("a page cannot open a recorded run: `espalier studio` does, and `espalier share` makes a page "
-                        "of it");
+        throw UserError(
+            "a page cannot open a recorded run: `espalier studio` does, and `espalier share` makes a page "
+            "of it");
     }
 };
 

@@ -1,5 +1,5 @@
-// Pages ask the triangles themselves: the level set of a machine is OpenVDB's. The distance is exact here, so it differs
-// from that of a machine by a fraction of a voxel.
+// Pages ask the triangles themselves: the level set of a machine is OpenVDB's. The distance is exact here, so it
+// differs from that of a machine by a fraction of a voxel.
 #include "environment/space/shapes/level_set.h"
 
 #include <fmt/format.h>
