@@ -166,8 +166,8 @@ private:
         const auto [name, written] = name_and_unit(cell);
         const int number = static_cast<int>(columns_.size() + 1);
         if (name == "date") return {name, Column::Kind::date};
-        const auto one =
-            std::find_if(known.begin(), known.end(), [&](const KnownColumn& each) { return name == each.name; });
+        const auto one = std::find_if(known.begin(), known.end(),
+                                      [&name = name](const KnownColumn& each) { return name == each.name; });
         if (one == known.end()) {
             warn_of_unread(name, known, {table_.place(header).file, header.line, number});
             return {name};
