@@ -1,6 +1,8 @@
 // Pictures of textures for the page, without VTK.
 #include "formats/textures.h"
 
+#include "espalier/base/error.h"
+
 #include "archive/meshes/bark.h"
 #include "base/picture_file.h"
 #include "base/png_file.h"
