@@ -67,6 +67,7 @@ function licences(names) {
 async function bundle() {
   const viewer = await build({ ...common, entryPoints: [join(source, "view/index.ts")], globalName: "EspalierView" });
   const page = await build({ ...common, entryPoints: [join(source, "main.ts")], plugins: [viewerIsGlobal] });
+  const worker = await build({ ...common, entryPoints: [join(source, "web/worker.ts")] });
   const style = await build({ ...common, entryPoints: [join(source, "studio.css")] });
   const names = new Set([...packagesOf(viewer), ...packagesOf(page), ...packagesOf(style)]);
   return {
@@ -74,6 +75,7 @@ async function bundle() {
     "icon.svg": readFileSync(join(source, "icon.svg"), "utf8"),
     "studio.js": `${textOf(viewer)}/*--- studio ---*/\n${textOf(page)}`,
     "studio.css": textOf(style),
+    "worker.js": textOf(worker),
     "LICENSES.txt": licences(names),
   };
 }

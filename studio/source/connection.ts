@@ -1,6 +1,8 @@
-/** The WebSocket to the server: requests with replies, and a new try after a loss. */
+/** The connection to the studio's session: requests with replies, and a new try after a loss. */
 import { readMessage, type BinaryMessage } from "./view/index.js";
 import type { Requests, Said } from "./protocol.js";
+import { SocketTransport, type Transport, type TransportEvents } from "./transport.js";
+import { hasOwnSession, WorkerTransport } from "./web/worker-transport.js";
 
 export type ConnectionState = "connecting" | "open" | "lost" | "refused";
 
@@ -23,13 +25,12 @@ export interface ConnectionEvents {
 }
 
 const longestPause = 8; // seconds between two tries
-const refusal = 1008; // the server closes a socket so that did not show the right key
 
 export class Connection {
   state: ConnectionState = "connecting";
   /** Why the server refused this page. */
   why = "";
-  private socket: WebSocket | null = null;
+  private transport: Transport | null = null;
   private next = 1;
   private pause = 0.5;
   private timer = 0;
@@ -42,14 +43,16 @@ export class Connection {
 
   connect(): void {
     clearTimeout(this.timer);
-    const socket = new WebSocket(`ws://${location.host}/socket`);
-    socket.binaryType = "arraybuffer";
-    this.socket = socket;
-    socket.addEventListener("open", () => void this.greet());
-    socket.addEventListener("message", (event: MessageEvent<string | ArrayBuffer>) => this.receive(event.data));
-    socket.addEventListener("close", ({ code, reason }) => {
-      if (this.socket === socket) this.lose(code === refusal ? reason : null);
-    });
+    const here = (): boolean => this.transport === transport;
+    const events: TransportEvents = {
+      opened: () => void this.greet(),
+      received: (data) => this.receive(data),
+      closed: (refused) => {
+        if (here()) this.lose(refused);
+      },
+    };
+    const transport = hasOwnSession() ? new WorkerTransport(events) : new SocketTransport(this.token, events);
+    this.transport = transport;
   }
 
   /** Tries again with another key. */
@@ -59,11 +62,10 @@ export class Connection {
   }
 
   request<Name extends keyof Requests>(name: Name, fields: Requests[Name]["send"]): Promise<Requests[Name]["get"]> {
-    const socket = this.socket;
-    if (!socket || socket.readyState !== WebSocket.OPEN)
-      return Promise.reject(new RequestError("There is no connection to the studio's program."));
+    const transport = this.transport;
+    if (!transport?.isOpen) return Promise.reject(new RequestError("There is no connection to the studio's program."));
     const id = this.next++;
-    socket.send(JSON.stringify({ ...fields, do: name, id }));
+    transport.send(JSON.stringify({ ...fields, do: name, id }));
     const reply = new Promise<Requests[Name]["get"]>((resolve, reject) => this.waiting.set(id, { resolve, reject }));
     this.events.asks(true);
     return reply;
@@ -71,9 +73,8 @@ export class Connection {
 
   /** A file that a reply named. */
   async file(number: number): Promise<Blob> {
-    const response = await fetch(`/file/${number}`, { headers: { Authorization: `Bearer ${this.token}` } });
-    if (!response.ok) throw new RequestError(`The file could not be read (${response.status}).`);
-    return response.blob();
+    if (!this.transport) throw new RequestError("There is no connection to the studio's program.");
+    return this.transport.file(number);
   }
 
   private async greet(): Promise<void> {
@@ -83,12 +84,12 @@ export class Connection {
       this.events.greeted(greeting);
       this.become("open");
     } catch {
-      // The socket closes, and says why.
+      // The transport closes, and says why.
     }
   }
 
   private lose(refused: string | null): void {
-    this.socket = null;
+    this.transport = null;
     for (const { reject } of this.waiting.values()) reject(new RequestError("The connection to the studio's program was lost."));
     this.waiting.clear();
     this.events.asks(false);

@@ -133,6 +133,8 @@ inline const std::vector<NotRun>& not_run() {
         {"docs/sweeps.md", "parallel --jobs 2 < four.commands", "is a program of its own", "parallel"},
         {"docs/view.md", "espalier view output/two-trees",
          "opens a window that stays until the user closes it; tests/app/view.test.cpp drives one", ""},
+        {"docs/web.md", "./dev web", "compiles for pages, which takes half an hour", ""},
+        {"docs/web.md", "./dev web --check", "compiles for pages, and builds the program that this test belongs to", ""},
         {"docs/view.md", "espalier view environments/two-trees.toml",
          "opens a window that stays until the user closes it; tests/app/view.test.cpp drives one", ""},
         {"docs/view.md", "espalier view models/course/02-branching.l --steps 6",

@@ -1,29 +1,23 @@
 #include "espalier/archive/recorded_run.h"
 #include "espalier/base/file.h"
 #include "espalier/base/read_log.h"
-#include "espalier/simulation/object.h"
 #include "espalier/studio/studio.h"
 
 #include "app/child.h"
 #include "app/command.h"
-#include "app/look/gallery_page.h"
-#include "app/model_arguments.h"
+#include "app/look/studio_documents.h"
 #include "app/model_library.h"
 #include "app/options.h"
 #include "app/program_data.h"
 #include "app/temporary_folder.h"
-#include "base/folder.h"
 #include "base/platform.h"
 #include "base/state_folder.h"
-#include "simulation/run/named_programs.h"
 
 #include <fmt/format.h>
 
 #include <atomic>
 #include <filesystem>
-#include <map>
 #include <random>
-#include <set>
 #include <system_error>
 
 namespace espalier::app {
@@ -33,122 +27,10 @@ namespace fs = std::filesystem;
 
 std::atomic<bool> ended{false};
 
-// The view file that lies beside a model and has its name; none if there is none.
-fs::path view_beside(const fs::path& model) {
-    const fs::path view = fs::path(model).replace_extension(".v");
-    return !fs::is_directory(model) && fs::is_regular_file(view) ? view : fs::path();
-}
-
-// Who has the address of the studio may write into its documents what he likes.
-void require_no_programs(const Scene& scene) {
-    for (const NamedProgram& program : programs_of(scene)) {
-        throw UserError(program.place,
-                        fmt::format("process '{}' is a program of its own, which the studio starts only with "
-                                    "`espalier studio --programs`; `espalier run` starts it, once you agree",
-                                    program.process));
-    }
-}
-
-// As `espalier run` reads it, with `--view` of a view file beside a model.
-Scene read(const Opened& opened) {
-    const SceneOptions options{{}, opened.steps, opened.seed};
-    if (is_scene(opened.path)) return read_scene(opened.path, options);
-    ModelArguments arguments;
-    arguments.file = opened.path;
-    arguments.view = view_beside(opened.path);
-    return scene_of_object(object_of(arguments), options);
-}
-
 fs::path state_file(const fs::path& folder) {
     const fs::path states = state_folder();
     return states.empty() ? states : states / fmt::format("studio-{:016x}.json", digest(folder.string()));
 }
-
-class Library {
-public:
-    explicit Library(fs::path folder) : folder_(std::move(folder)), models_(model_library({})) {}
-
-    std::vector<LibraryEntry> entries() const {
-        const fs::path data = fs::absolute(models_).lexically_normal().parent_path();
-        std::map<fs::path, LibraryEntry> shipped;
-        const auto add = [&](const fs::path& file) {
-            const fs::path path = fs::absolute(file).lexically_normal();
-            shipped[path] = {path, describe_file(path).summary, "", path.parent_path().filename().string()};
-        };
-        for (const PartDescription& model : models_of(data / "models")) add(model.name);
-        for (const fs::path& scene : scenes_below(data / "environments")) add(scene);
-        std::vector<LibraryEntry> entries;
-        for (const GalleryEntry& shown : gallery_of(data)) {
-            if (const auto entry = shipped.extract(shown.file)) entries.push_back(on_shelf(entry.mapped(), shown));
-        }
-        for (const auto& [path, entry] : shipped) entries.push_back(entry);
-        add_own(data, entries);
-        return entries;
-    }
-
-private:
-    // What the file says of itself stands beside the title, unless it is the title with an article.
-    static LibraryEntry on_shelf(const LibraryEntry& entry, const GalleryEntry& shown) {
-        constexpr std::size_t article = 3;  // "An "
-        const bool says_more = entry.name.size() > shown.title.size() + article;
-        const std::string between = says_more && !shown.source.empty() ? ". " : "";
-        return {entry.path, shown.title, shown.source + between + (says_more ? entry.name : ""), shown.shelf,
-                fs::exists(shown.picture) ? shown.picture : fs::path()};
-    }
-
-    static std::vector<fs::path> scenes_below(const fs::path& folder) {
-        std::vector<fs::path> scenes;
-        if (!fs::is_directory(folder)) return scenes;
-        for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-            if (entry.is_regular_file() && describes_scene(entry.path())) scenes.push_back(entry.path());
-        }
-        std::sort(scenes.begin(), scenes.end());
-        return scenes;
-    }
-
-    // The files of the opened folder itself, and what came by links, without what lies deeper: that may be anything.
-    void add_own(const fs::path& data, std::vector<LibraryEntry>& entries) const {
-        std::error_code ignored;
-        for (const fs::path& folder : {folder_, folder_ / "output"}) add_runs(folder, entries);
-        if (folder_ != data) add_files(folder_, entries);
-        for (const auto& shared : fs::directory_iterator(folder_ / "shared", ignored))
-            add_files(shared.path(), entries);
-    }
-
-    // A link that is not offered, because it would be refused.
-    static bool leads_out(const fs::path& path, const fs::path& folder) {
-        std::error_code unknown;
-        return resolved_below(path, folder, unknown).empty();
-    }
-
-    static void add_files(const fs::path& folder, std::vector<LibraryEntry>& entries) {
-        std::error_code ignored;
-        for (const auto& file : fs::directory_iterator(folder, ignored)) {
-            if (!file.is_regular_file(ignored) || leads_out(file.path(), folder)) continue;
-            if (!describes_scene(file.path()) && !describes_model(file.path())) continue;
-            entries.push_back({file.path(),
-                               file.path().stem().string(),
-                               describe_file(file.path()).summary,
-                               folder.filename().string(),
-                               {},
-                               true});
-        }
-    }
-
-    static void add_runs(const fs::path& folder, std::vector<LibraryEntry>& entries) {
-        std::error_code ignored;
-        std::set<fs::path> runs;
-        for (const auto& inside : fs::directory_iterator(folder, ignored)) {
-            if (leads_out(inside.path(), folder)) continue;
-            if (fs::is_regular_file(inside.path() / "run.json", ignored)) runs.insert(inside.path());
-        }
-        for (const fs::path& run : runs) {
-            entries.push_back({run, run.filename().string(), "a recorded run", folder.filename().string(), {}, true});
-        }
-    }
-
-    const fs::path folder_, models_;
-};
 
 void open_browser(const std::string& address) {
     try {
@@ -220,11 +102,11 @@ Examples:
         options.port = port_;
         if (!memory_.empty()) options.memory = size_in_bytes(memory_, "--memory");
         options.read = [programs = programs_](const Opened& opened) {
-            Scene scene = read(opened);
+            Scene scene = read_opened(opened);
             if (!programs) require_no_programs(scene);
             return scene;
         };
-        options.library = [library = Library(options.folder)] { return library.entries(); };
+        options.library = [library = StudioLibrary(options.folder)] { return library.entries(); };
         options.interrupt = &ended;
         options.ready = [this, &link](const std::string& own) {
             const std::string address = link.empty() ? own : own + "&model=" + link;

@@ -25,7 +25,8 @@ Deviation deviation(const TubeNode& node, const TubeNode& from, const TubeNode& 
     const glm::dvec3 a(from.position), along = glm::dvec3(to.position) - a, here = glm::dvec3(node.position) - a;
     const double square = glm::dot(along, along);
     const double share = square > 0 ? std::clamp(glm::dot(here, along) / square, 0.0, 1.0) : 0.0;
-    return {glm::length(here - share * along), std::abs(node.radius - std::lerp(from.radius, to.radius, share))};
+    return {glm::length(here - share * along),
+            std::abs(node.radius - std::lerp(double{from.radius}, double{to.radius}, share))};
 }
 
 /// Lets the nodes of a tube go one after the other, always where the least area changes.

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace espalier::archive {
@@ -18,7 +19,10 @@ struct MeshMaterial {
     Rgb rgb{255, 255, 255};
     std::string texture;  ///< a file, or ""
 
-    auto operator<=>(const MeshMaterial&) const = default;
+    bool operator==(const MeshMaterial&) const = default;
+    bool operator<(const MeshMaterial& other) const {
+        return std::tie(rgb, texture) < std::tie(other.rgb, other.texture);
+    }
 };
 
 /// An axis or an organ: triangles that follow each other, with vertices of their own.

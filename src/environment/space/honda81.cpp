@@ -36,7 +36,7 @@ public:
         if (!std::is_sorted(tips.begin(), tips.end(), less)) std::stable_sort(tips.begin(), tips.end(), less);
         for (auto begin = tips.begin(); begin != tips.end();) {
             const auto end = std::upper_bound(begin, tips.end(), *begin, less);
-            answer_group({begin, end}, answers);
+            answer_group({&*begin, static_cast<std::size_t>(end - begin)}, answers);
             begin = end;
         }
         statistics_.sum_up(queries, answers);

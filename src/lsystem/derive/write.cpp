@@ -103,11 +103,11 @@ Writer::Writer(const StepInput& input, const Chunk& chunk, std::span<const Repla
 template <bool Valued>
 inline bool Writer::has_room(const Cursor& at, std::size_t modules, std::size_t parameters, const Plan& plan) const {
     const auto m = static_cast<std::ptrdiff_t>(modules + letter_block);
-    if (in_end_ - at.in < m || out_end_ - at.out < m + std::ptrdiff_t{plan.length}) return false;
+    if (in_end_ - at.in < m || out_end_ - at.out < m + std::ptrdiff_t(plan.length)) return false;
     if (!Valued) return true;
     const auto p = static_cast<std::ptrdiff_t>(parameters + run_value_block);
-    return values_end_ - at.values >= p + std::ptrdiff_t{plan.reads} &&
-           out_values_end_ - at.out_values >= p + std::ptrdiff_t{plan.parameters};
+    return values_end_ - at.values >= p + std::ptrdiff_t(plan.reads) &&
+           out_values_end_ - at.out_values >= p + std::ptrdiff_t(plan.parameters);
 }
 
 /// Writes in whole blocks; false if a value is not finite.

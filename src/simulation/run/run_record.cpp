@@ -127,7 +127,7 @@ int RunRecord::step_saved_in(std::istream& in) {
 }
 
 void RunRecord::resume(const Timeline* timeline, std::istream& in) {
-    const auto timings = std::size_t{get<std::uint64_t>(in)};
+    const auto timings = static_cast<std::size_t>(get<std::uint64_t>(in));
     if (timeline) timings_.emplace(timeline->folder() / "timings.csv", timings);
     steps_ = get<int>(in);
     total_ = get<StageTimes>(in);

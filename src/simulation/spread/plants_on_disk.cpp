@@ -176,7 +176,7 @@ void PlantsOnDisk::write(GrowingPlant& plant, std::size_t file, bool drawn) {
     // Processes answer queries only, so the turtle may be first.
     write_turtle_answers(from, string);
     save_string(string, out);
-    const std::uint64_t string_size = out.view().size();
+    const auto string_size = static_cast<std::uint64_t>(out.tellp());
     std::size_t points = 0;
     if (drawn) {
         const PlantGeometry& geometry = plant.drawn().geometry;
@@ -187,7 +187,8 @@ void PlantsOnDisk::write(GrowingPlant& plant, std::size_t file, bool drawn) {
         asked->geometry.shapes = geometry.shapes;
         points = points_foreseen(geometry);
     }
-    places_[plant.number] = {files_[file]->append(out.view()), out.view().size(), string_size, points};
+    const std::string bytes = std::move(out).str();
+    places_[plant.number] = {files_[file]->append(bytes), bytes.size(), string_size, points};
     plant.hold(std::move(parameters), std::move(asked));
     memory_.count_waiting(plant);
 }

@@ -35,15 +35,15 @@ fs::path export_folder(const fs::path& scratch) {
     return scratch / "export";
 }
 
-ExportRun::ExportRun(ExportOrder order, Progressed progressed, Done done)
+ExportRun::ExportRun(ExportOrder order, Workers& workers, Progressed progressed, Done done)
     : order_(std::move(order)),
       progressed_(std::move(progressed)),
       done_(std::move(done)),
-      thread_([this] { work(); }) {}
+      running_(workers.run([this] { work(); })) {}
 
 ExportRun::~ExportRun() {
     stop_.ask();
-    thread_.join();
+    running_.wait();
 }
 
 void ExportRun::work() {
@@ -55,7 +55,6 @@ void ExportRun::work() {
     } catch (const std::exception& error) {
         if (!stop_.is_asked()) done_({}, reason_of(error));
     }
-    ended_ = true;
 }
 
 // The frames of a film, and fields, lie in files; else the last frame is in memory.

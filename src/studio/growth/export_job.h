@@ -6,12 +6,12 @@
 #include "espalier/base/stop.h"
 #include "espalier/studio/studio.h"
 
-#include <atomic>
+#include "studio/growth/workers.h"
+
 #include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace espalier::studio {
@@ -41,13 +41,13 @@ public:
     using Progressed = std::function<void(double share)>;
     using Done = std::function<void(std::vector<std::filesystem::path> files, std::string why)>;
 
-    ExportRun(ExportOrder order, Progressed progressed, Done done);
+    ExportRun(ExportOrder order, Workers& workers, Progressed progressed, Done done);
     /// Ends it at once.
     ~ExportRun();
     ExportRun(const ExportRun&) = delete;
     ExportRun& operator=(const ExportRun&) = delete;
 
-    bool has_ended() const { return ended_; }
+    bool has_ended() const { return running_.has_ended(); }
 
 private:
     void work();
@@ -59,8 +59,7 @@ private:
     const Progressed progressed_;
     const Done done_;
     StopRequest stop_;
-    std::atomic<bool> ended_ = false;
-    std::thread thread_;  ///< the last: it uses all others
+    RunningWork running_;  ///< the last: it uses all others
 };
 
 }  // namespace espalier::studio

@@ -116,11 +116,11 @@ Growth::Growth(GrowthOrder order, GrowthListener& listener, Workers& workers)
       steps_(std::make_shared<KeptSteps>(order_.number, order_.scratch / fmt::format("growth-{}", order_.number))),
       version_(order_.version),
       wanted_(order_.looked_at),
-      ended_(workers.run([this] { live(); })) {}
+      running_(workers.run(*this)) {}
 
 Growth::~Growth() {
     cancel();
-    ended_.wait();
+    running_.wait();
     std::error_code ignored;
     fs::remove_all(order_.scratch / fmt::format("files-{}", order_.number), ignored);
 }
@@ -185,30 +185,48 @@ void Growth::draw(int step) {
     changed_.notify_all();
 }
 
-void Growth::live() {
-    const StopRequest::Scope scope(&request_);
+// One piece of its life: it is read, it grows by a step, or it draws one.
+Growth::Then Growth::next() {
+    const StopRequest::Scope stops(&request_);
+    const ReadLog::Scope reads(reads_.get());
     try {
-        const ReadLog reads(std::size_t(64) << 20, order_.unsaved, order_.permission);
-        const Scene scene = order_.read(order_.opened);
-        note_texture_files(scene);
-        GrowthStart start;
-        start.warnings = scene.notes.diagnostics;
-        if (cancelled_) return;
-        const fs::path folder = order_.scratch / fmt::format("files-{}", number());
-        fs::create_directories(folder);
-        Work work(scene, allowed_memory(order_.memory, order_.opened.path), folder, printed_.printout());
-        start.files = reads.files();  // processes have read theirs, such as meshes
-        begin(work, std::move(start));
-        grow(work);
+        return work_ ? grow(*work_) : open();
     } catch (const Stopped&) {
-        printed_.send();
-        if (!cancelled_) listener_.failed(number(), said("it was stopped before the first step"));
+        return fail(said("it was stopped before the first step"));
     } catch (const std::bad_alloc&) {
-        if (!cancelled_) listener_.failed(number(), said("the machine has no memory left"));
+        return fail(said("the machine has no memory left"));
     } catch (const std::exception& error) {
-        printed_.send();
-        if (!cancelled_) listener_.failed(number(), diagnostics_of(error));
+        return fail(diagnostics_of(error));
     }
+}
+
+Growth::Then Growth::fail(const std::vector<Diagnostic>& why) {
+    printed_.send();
+    if (!cancelled_) listener_.failed(number(), why);
+    return end();
+}
+
+Growth::Then Growth::end() {
+    work_.reset();
+    read_scene_.reset();
+    reads_.reset();
+    return Then::ended;
+}
+
+Growth::Then Growth::open() {
+    reads_ = std::make_unique<ReadLog>(std::size_t(64) << 20, order_.unsaved, order_.permission);
+    read_scene_ = std::make_unique<const Scene>(order_.read(order_.opened));
+    note_texture_files(*read_scene_);
+    GrowthStart start;
+    start.warnings = read_scene_->notes.diagnostics;
+    if (cancelled_) return end();
+    const fs::path folder = order_.scratch / fmt::format("files-{}", number());
+    fs::create_directories(folder);
+    work_ = std::make_unique<Work>(*read_scene_, allowed_memory(order_.memory, order_.opened.path), folder,
+                                   printed_.printout());
+    start.files = reads_->files();  // processes have read theirs, such as meshes
+    begin(*work_, std::move(start));
+    return Then::goes_on;
 }
 
 void Growth::begin(Work& work, GrowthStart start) {
@@ -250,19 +268,18 @@ void Growth::begin(Work& work, GrowthStart start) {
     work.is_ended = world.stopped();
 }
 
-void Growth::grow(Work& work) {
-    while (!cancelled_) {
-        printed_.send();
-        try {
-            if (advance(work)) continue;
-        } catch (const Stopped&) {
-            drop(work);
-            continue;
-        }
-        const bool is_over = work.is_ended || work.derived >= last_step_;
-        if (!is_over && !std::exchange(work.told_stop, true)) listener_.stopped(number());
-        wait_for_more(work);
+Growth::Then Growth::grow(Work& work) {
+    if (cancelled_) return end();
+    printed_.send();
+    try {
+        if (advance(work)) return Then::goes_on;
+    } catch (const Stopped&) {
+        drop(work);
+        return Then::goes_on;
     }
+    const bool is_over = work.is_ended || work.derived >= last_step_;
+    if (!is_over && !std::exchange(work.told_stop, true)) listener_.stopped(number());
+    return Then::waits;
 }
 
 // It was meant for other work than what follows; not so a request by cancel().
@@ -432,10 +449,11 @@ void Growth::note_grown(Work& work, std::size_t internodes, std::string statisti
     if (!cancelled_) listener_.grown(number(), std::move(step));
 }
 
-// An end, or steps to grow or to draw.
-void Growth::wait_for_more(const Work& work) {
+// For an end, or steps to grow or to draw.
+void Growth::wait() {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return cancelled_ || !wanted_.empty() || may_grow(work) || may_draw_in_order(work); });
+    changed_.wait(lock,
+                  [&] { return cancelled_ || !wanted_.empty() || may_grow(*work_) || may_draw_in_order(*work_); });
 }
 
 }  // namespace espalier::studio

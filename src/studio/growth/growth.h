@@ -17,7 +17,6 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
-#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -44,7 +43,7 @@ struct GrowthOrder {
     std::set<int> looked_at = {};  ///< besides the last step
 };
 
-class Growth final : public PlantSource {
+class Growth final : public PlantSource, private PiecewiseWork {
 public:
     /// The workers and the listener outlive it.
     Growth(GrowthOrder order, GrowthListener& listener, Workers& workers);
@@ -76,7 +75,7 @@ public:
     }
 
     void cancel() override;
-    bool has_ended() const override { return ended_.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
+    bool has_ended() const override { return running_.has_ended(); }
     void stop() override;
     /// False if what grows depends on how far it is to grow: then it must grow anew.
     bool extend(int last_step, std::uint64_t version) override;
@@ -85,9 +84,13 @@ public:
 private:
     struct Work;
 
-    void live();
+    Then next() override;
+    void wait() override;
+    Then open();
+    Then end();
+    Then fail(const std::vector<Diagnostic>& why);
     void begin(Work& work, GrowthStart start);
-    void grow(Work& work);
+    Then grow(Work& work);
     void drop(Work& work);
     void forget_stop();
     bool advance(Work& work);
@@ -104,7 +107,6 @@ private:
     Frame frame_at(Work& work, int step);
     Frame answered_frame(const Work& work, int step) const;
     void note_grown(Work& work, std::size_t internodes, std::string statistics);
-    void wait_for_more(const Work& work);
 
     std::shared_ptr<const KeptSteps> before_;  ///< until it has begun
     const GrowthOrder order_;
@@ -121,8 +123,12 @@ private:
     std::condition_variable changed_;
     std::shared_ptr<const Scene> scene_;
     std::vector<std::string> organ_columns_;
-    std::set<int> wanted_;     ///< steps to be drawn before others
-    std::future<void> ended_;  ///< the last: its work uses all others
+    std::set<int> wanted_;  ///< steps to be drawn before others
+    // Of its own thread, while it grows.
+    std::unique_ptr<ReadLog> reads_;
+    std::unique_ptr<const Scene> read_scene_;
+    std::unique_ptr<Work> work_;
+    RunningWork running_;  ///< the last: it uses all others
 };
 
 }  // namespace espalier::studio

@@ -135,11 +135,11 @@ Recording::Recording(GrowthOrder order, GrowthListener& listener, Workers& worke
     : order_(std::move(order)),
       listener_(listener),
       wanted_(order_.looked_at),
-      ended_(workers.run([this] { live(); })) {}
+      running_(workers.run([this] { live(); })) {}
 
 Recording::~Recording() {
     cancel();
-    ended_.wait();
+    running_.wait();
 }
 
 double Recording::seconds() const {

@@ -13,7 +13,6 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
-#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -51,7 +50,7 @@ public:
     std::string field(int step, const std::string& name) const override;
 
     void cancel() override;
-    bool has_ended() const override { return ended_.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
+    bool has_ended() const override { return running_.has_ended(); }
 
 private:
     void live();
@@ -76,7 +75,7 @@ private:
     std::size_t packet_bytes_ = 0;
     std::set<int> wanted_;
     mutable OrganReader histories_;
-    std::future<void> ended_;  ///< the last: its work uses all others
+    RunningWork running_;  ///< the last: it uses all others
 };
 
 }  // namespace espalier::studio

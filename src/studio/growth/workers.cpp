@@ -13,7 +13,7 @@ Workers::~Workers() {
     for (std::thread& thread : threads_) thread.join();
 }
 
-std::future<void> Workers::run(std::function<void()> work) {
+RunningWork Workers::run(std::function<void()> work) {
     const std::lock_guard lock(mutex_);
     std::future<void> end = work_.emplace_back(std::move(work)).get_future();
     if (idle_ < work_.size()) {
@@ -21,7 +21,16 @@ std::future<void> Workers::run(std::function<void()> work) {
     } else {
         changed_.notify_one();
     }
-    return end;
+    return RunningWork(std::move(end));
+}
+
+RunningWork Workers::run(PiecewiseWork& work) {
+    using Then = PiecewiseWork::Then;
+    return run([&work] {
+        for (Then then = Then::goes_on; then != Then::ended; then = work.next()) {
+            if (then == Then::waits) work.wait();
+        }
+    });
 }
 
 void Workers::wait_for_work() {

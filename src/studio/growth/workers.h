@@ -1,6 +1,7 @@
 // Threads that wait for work, so that a change does not begin with making one.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -8,9 +9,36 @@
 #include <future>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace espalier::studio {
+
+/// Work that is done piece by piece: where a program has no threads, all who work take turns.
+class PiecewiseWork {
+public:
+    virtual ~PiecewiseWork() = default;
+
+    enum class Then { goes_on, waits, ended };
+    /// Does the next piece, and says what comes then.
+    virtual Then next() = 0;
+    /// Until there is another piece.
+    virtual void wait() = 0;
+};
+
+/// Some work, as those see it who have asked for it.
+class RunningWork {
+public:
+    RunningWork() = default;
+    explicit RunningWork(std::future<void> end) : end_(std::move(end)) {}
+
+    bool has_ended() const { return end_.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
+    /// For its end. Whatever it uses may go afterwards.
+    void wait() { end_.wait(); }
+
+private:
+    std::future<void> end_;
+};
 
 class Workers {
 public:
@@ -21,7 +49,9 @@ public:
     Workers& operator=(const Workers&) = delete;
 
     /// On a thread that waits, or on a new one: it never waits for other work.
-    std::future<void> run(std::function<void()> work);
+    RunningWork run(std::function<void()> work);
+    /// The same; the work outlives its end.
+    RunningWork run(PiecewiseWork& work);
 
 private:
     void wait_for_work();

@@ -5,12 +5,10 @@
 #include "archive/meshes/axis_lines.h"
 #include "archive/meshes/skin.h"
 #include "archive/meshes/surface_mesh.h"
-#include "base/reason.h"
 #include "studio/packets/message_bytes.h"
 
 #include <array>
 #include <cmath>
-#include <exception>
 #include <map>
 #include <span>
 #include <utility>
@@ -112,31 +110,6 @@ std::string limb_mesh(const LimbOrder& order, const ContinueCallback& may_contin
         for (std::size_t i = 0; i < plant.size(); ++i) message.add(plant[i], tubes[i]);
     }
     return message.take(order.growth, order.step, smooth);
-}
-
-LimbRun::LimbRun(std::shared_ptr<const LimbOrder> order, std::function<void(double)> progressed, Done done)
-    : order_(std::move(order)),
-      progressed_(std::move(progressed)),
-      done_(std::move(done)),
-      thread_([this] { work(); }) {}
-
-LimbRun::~LimbRun() {
-    cancelled_ = true;
-    thread_.join();
-}
-
-void LimbRun::work() {
-    try {
-        const auto may_continue = [this](double share) {
-            if (!cancelled_) progressed_(share);
-            return !cancelled_;
-        };
-        std::string bytes = limb_mesh(*order_, may_continue);
-        if (!cancelled_) done_(std::move(bytes), "");
-    } catch (const std::exception& error) {
-        if (!cancelled_) done_("", reason_of(error));
-    }
-    ended_ = true;
 }
 
 }  // namespace espalier::studio

@@ -21,14 +21,15 @@ constexpr double least_growth = 0.4;
 }  // namespace
 
 Growths::Growths(const StudioOptions& options, Pages& pages, OpenDocument& document, DocumentDisk& disk,
-                 HandedFiles& files, Post post)
+                 HandedFiles& files, Workers& workers, Post post)
     : options_(options),
       pages_(pages),
       document_(document),
       disk_(disk),
       files_(files),
       listener_(*this, std::move(post)),
-      printed_(pages) {}
+      printed_(pages),
+      workers_(workers) {}
 
 void Growths::begin(const DocumentChange& change) {
     follow_from_ = change.follow_from.value_or(change.is_other ? 0 : INT_MAX);

@@ -28,7 +28,7 @@ class Growths final : private GrowthNotes {
 public:
     /// All outlive it. `post` does work on the session's thread.
     Growths(const StudioOptions& options, Pages& pages, OpenDocument& document, DocumentDisk& disk, HandedFiles& files,
-            Post post);
+            Workers& workers, Post post);
 
     /// The document has changed, or a file that it may read.
     void begin(const DocumentChange& change);
@@ -73,7 +73,7 @@ private:
     PostedListener listener_;
     Statistics statistics_;
     PrintedNote printed_;
-    Workers workers_;
+    Workers& workers_;
     std::uint32_t last_number_ = 0;
     bool waits_ = false;                 ///< a growth of the newest version is to begin
     std::unique_ptr<PlantSource> next_;  ///< reads its files; the present growth goes on if it cannot

@@ -69,7 +69,7 @@ void Jobs::begin_export(ExportOrder order) {
             note_exported(files, export_folder(scratch), why);
         });
     };
-    export_ = std::make_unique<ExportRun>(std::move(order), progressed, done);
+    export_ = std::make_unique<ExportRun>(std::move(order), workers_, progressed, done);
 }
 
 void Jobs::note_exported(const std::vector<fs::path>& files, const fs::path& folder, const std::string& why) {
@@ -105,7 +105,9 @@ void Jobs::begin_limbs(Viewer& viewer, LimbOrder order) {
         }
     };
     const auto shared = std::make_shared<const LimbOrder>(std::move(order));
-    waiting_limbs_[page] = [shared, progressed, done] { return std::make_unique<LimbRun>(shared, progressed, done); };
+    waiting_limbs_[page] = [this, shared, progressed, done] {
+        return std::make_unique<LimbRun>(shared, workers_, progressed, done);
+    };
     begin_waiting_limbs();
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "studio/growth/export_job.h"
-#include "studio/packets/limb_mesh.h"
+#include "studio/growth/limb_run.h"
 #include "studio/session/handed_files.h"
 #include "studio/session/pages.h"
 #include "studio/session/posted_listener.h"
@@ -17,8 +17,9 @@ namespace espalier::studio {
 
 class Jobs {
 public:
-    /// The pages and the files outlive it. `post` does work on the session's thread.
-    Jobs(Pages& pages, HandedFiles& files, Post post) : pages_(pages), files_(files), post_(std::move(post)) {}
+    /// All outlive it. `post` does work on the session's thread.
+    Jobs(Pages& pages, HandedFiles& files, Workers& workers, Post post)
+        : pages_(pages), files_(files), workers_(workers), post_(std::move(post)) {}
 
     /// Its files go into a folder of its own below the order's scratch. Throws UserError while another export goes on.
     void begin_export(ExportOrder order);
@@ -39,6 +40,7 @@ private:
 
     Pages& pages_;
     HandedFiles& files_;
+    Workers& workers_;
     const Post post_;
     int exports_ = 0;
     std::unique_ptr<ExportRun> export_;

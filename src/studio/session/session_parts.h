@@ -1,6 +1,7 @@
 // A session by its subjects, as requests use it.
 #pragma once
 
+#include "studio/growth/workers.h"
 #include "studio/session/document_disk.h"
 #include "studio/session/growths.h"
 #include "studio/session/handed_files.h"
@@ -15,14 +16,15 @@ struct SessionParts {
         : options(its_options),
           document(options, pages),
           disk(options, pages, document),
-          growths(options, pages, document, disk, files, post),
-          jobs(pages, files, post) {}
+          growths(options, pages, document, disk, files, workers, post),
+          jobs(pages, files, workers, post) {}
 
     const StudioOptions& options;
     HandedFiles files;
     Pages pages;
     OpenDocument document;
     DocumentDisk disk;
+    Workers workers;
     Growths growths;
     Jobs jobs;
 };

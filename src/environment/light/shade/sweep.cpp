@@ -272,7 +272,8 @@ std::span<const ShadeSweep::Layer> ShadeSweep::layers_over(int slice, int lower,
     };
     const auto begin = std::lower_bound(layers_.begin(), layers_.end(), lower, below);
     const auto end = std::lower_bound(begin, layers_.end(), upper + depth + 1, below);
-    return {begin, end};
+    const auto first = static_cast<std::size_t>(begin - layers_.begin());
+    return std::span(layers_).subspan(first, static_cast<std::size_t>(end - begin));
 }
 
 void ShadeSweep::count(const ShadeCasts& casts, const ShadeBricks& bricks) {

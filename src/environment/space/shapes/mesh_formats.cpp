@@ -23,8 +23,8 @@ bool is_blank(char c) {
 std::string_view take_word(std::string_view& text) {
     const auto begin = std::find_if_not(text.begin(), text.end(), is_blank);
     const auto end = std::find_if(begin, text.end(), is_blank);
-    const std::string_view word(begin, end);
-    text = std::string_view(end, text.end());
+    const std::string_view word = text.substr(std::size_t(begin - text.begin()), std::size_t(end - begin));
+    text.remove_prefix(std::size_t(end - text.begin()));
     return word;
 }
 

@@ -1,0 +1,21 @@
+# What pages load, and the program that compares it with the native one.
+set_source_files_properties(src/geometry/grid_operations.cpp PROPERTIES COMPILE_DEFINITIONS ESPALIER_GRID_LIBRARY="")
+target_sources(espalier_base PRIVATE web/module/toml_library.cpp)
+set(grows ${GROW_STATIONS} ${GRID_STATIONS})
+
+include(cmake/same_bytes.cmake)
+target_link_libraries(same_bytes PRIVATE ${grows})
+set_target_properties(same_bytes PROPERTIES SUFFIX .js)
+target_link_options(same_bytes PRIVATE -sNODERAWFS=1 -sENVIRONMENT=node -sEXIT_RUNTIME=1 -sALLOW_MEMORY_GROWTH=1
+  -sMAXIMUM_MEMORY=4GB -sTOTAL_STACK=8MB)
+
+# The session of the studio, as a worker's module.
+add_executable(espalier_web web/module/session.cpp web/src/app/program_data.cpp src/app/look/studio_documents.cpp
+  src/app/look/gallery_page.cpp src/app/model_arguments.cpp src/app/model_library.cpp)
+set_target_properties(espalier_web PROPERTIES OUTPUT_NAME espalier SUFFIX .js)
+target_include_directories(espalier_web PRIVATE src)
+target_link_libraries(espalier_web PRIVATE espalier_options ${grows} ${LOOK_STATIONS} espalier_studio
+  nlohmann_json::nlohmann_json)
+target_link_options(espalier_web PRIVATE --no-entry -sMODULARIZE=1 -sEXPORT_NAME=createEspalier -sENVIRONMENT=worker,node
+  -sDYNAMIC_EXECUTION=0 -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB -sTOTAL_STACK=8MB -sFORCE_FILESYSTEM=1
+  -sEXPORTED_RUNTIME_METHODS=FS,ccall,UTF8ToString,HEAPU8)

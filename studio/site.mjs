@@ -1,0 +1,99 @@
+// Puts together the studio that needs no server: node site.mjs MODULE_FOLDER OUT
+//
+// OUT/index.html works from any web server below any path; OUT/espalier.html is the same in one file, which works from a disk.
+// MODULE_FOLDER has espalier.js and espalier.wasm, made by `cmake --build --preset web`.
+import { copyFileSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { dirname, join, relative } from "node:path";
+import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
+
+const studio = dirname(fileURLToPath(import.meta.url));
+const repository = dirname(studio);
+const [moduleFolder, out] = process.argv.slice(2);
+const limit = 2_000_000; // bytes of the page in all, as it is sent
+
+function* filesBelow(folder) {
+  for (const name of readdirSync(folder).sort()) {
+    const path = join(folder, name);
+    if (statSync(path).isDirectory()) yield* filesBelow(path);
+    else yield path;
+  }
+}
+
+const gallery = join(repository, "docs/pictures/gallery");
+const packedFolders = ["models", "environments"].map((name) => join(repository, name));
+
+/** A line of JSON with names and sizes, then the files. Pictures of the gallery are named alone: they lie beside the page. */
+function packOfLibrary(withPictures) {
+  const files = [...packedFolders.flatMap((folder) => [...filesBelow(folder)]), join(repository, "docs/gallery.md")];
+  const names = files.map((path) => [relative(repository, path), statSync(path).size]);
+  const pictures = withPictures ? [...filesBelow(gallery)].map((path) => [relative(repository, path), 0]) : [];
+  return Buffer.concat([Buffer.from(`${JSON.stringify([...names, ...pictures])}\n`), ...files.map((path) => readFileSync(path))]);
+}
+
+function policy(scripts) {
+  return (
+    `default-src 'none'; script-src ${scripts} 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; ` +
+    "media-src blob:; connect-src 'self' blob:; worker-src blob:; base-uri 'none'; form-action 'none'"
+  );
+}
+
+function pageWith(head, body = "") {
+  return readFileSync(join(studio, "dist/index.html"), "utf8")
+    .replace("<html ", '<html data-parts="" ')
+    .replace('<meta charset="utf-8">', `<meta charset="utf-8">\n${head}`)
+    .replace("<body>\n", `<body>\n${body}`);
+}
+
+function inScript(text) {
+  return text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
+}
+
+/** One file: scripts, styles and parts are elements of it. */
+function singleFile(parts) {
+  const text = (name) => readFileSync(join(studio, "dist", name), "utf8");
+  const elements = Object.entries(parts).map(
+    ([name, bytes]) => `<script type="application/base64" id="part-${name}">${bytes.toString("base64")}</script>\n`,
+  );
+  const icon = `data:image/svg+xml;base64,${Buffer.from(text("icon.svg")).toString("base64")}`;
+  return pageWith(`<meta http-equiv="Content-Security-Policy" content="${policy("'unsafe-inline'")}">`, elements.join(""))
+    .replace("icon.svg", icon)
+    .replace('<link rel="stylesheet" href="studio.css">', () => `<style>${text("studio.css")}</style>`)
+    .replace('<script src="studio.js" defer></script>\n', "")
+    .replace("</body>", () => `<script>${inScript(text("studio.js"))}</script>\n</body>`);
+}
+
+rmSync(out, { recursive: true, force: true });
+mkdirSync(out, { recursive: true });
+const module = gzipSync(readFileSync(join(moduleFolder, "espalier.wasm")), { level: 9 });
+const worker = Buffer.concat([readFileSync(join(moduleFolder, "espalier.js")), readFileSync(join(studio, "dist/worker.js"))]);
+const files = {
+  "index.html": pageWith(`<meta http-equiv="Content-Security-Policy" content="${policy("'self'")}">`),
+  "espalier.wasm.gz": module,
+  "library.pack.gz": gzipSync(packOfLibrary(true), { level: 9 }),
+  "worker.js": worker,
+};
+for (const name of ["studio.js", "studio.css", "icon.svg", "LICENSES.txt"]) files[name] = readFileSync(join(studio, "dist", name));
+for (const [name, bytes] of Object.entries(files)) writeFileSync(join(out, name), bytes);
+for (const path of filesBelow(gallery)) {
+  const place = join(out, relative(repository, path));
+  mkdirSync(dirname(place), { recursive: true });
+  copyFileSync(path, place);
+}
+writeFileSync(
+  join(out, "espalier.html"),
+  singleFile({
+    "espalier.wasm.gz": module,
+    "library.pack.gz": gzipSync(packOfLibrary(false), { level: 9 }),
+    "worker.js": gzipSync(worker, { level: 9 }),
+  }),
+);
+
+let total = 0;
+for (const [name, bytes] of Object.entries(files)) {
+  const size = name.endsWith(".gz") ? bytes.length : gzipSync(bytes, { level: 9 }).length;
+  if (name !== "LICENSES.txt") total += size;
+  console.log(`${name}: ${(size / 1000).toFixed(1)} kB compressed`);
+}
+console.log(`together ${(total / 1000).toFixed(1)} kB of ${limit / 1000} kB`);
+if (total > limit) process.exit(1);

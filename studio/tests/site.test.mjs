@@ -1,0 +1,150 @@
+// The studio that needs no server, in a real browser: node tests/site.test.mjs FOLDER, as studio/site.mjs has made it.
+//
+// Files are served below a path of their own, as a page of a larger site is.
+import assert from "node:assert/strict";
+import { createServer } from "node:http";
+import { readFile } from "node:fs/promises";
+import { extname, join, resolve } from "node:path";
+import { after, before, test } from "node:test";
+import { pathToFileURL } from "node:url";
+import { grown, openBrowser, openPage, rests, shot, told } from "./browser.mjs";
+
+const folder = resolve(process.argv[2] ?? "../build/web/site");
+const types = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml", ".png": "image/png" };
+const below = "/some/where/";
+const asked = new Set();
+let server;
+let browser;
+let page;
+let address;
+
+async function serve(request, response) {
+  asked.add(request.url);
+  const path = new URL(request.url, "http://localhost").pathname;
+  try {
+    if (!path.startsWith(below)) throw new Error("outside");
+    const name = path.slice(below.length) || "index.html";
+    const bytes = await readFile(join(folder, name));
+    response.writeHead(200, { "Content-Type": types[extname(name)] ?? "application/octet-stream" }).end(bytes);
+  } catch {
+    response.writeHead(404).end();
+  }
+}
+
+/** A page, and every address that it asks for. */
+async function openSite(where) {
+  const opened = await openPage(browser, "about:blank");
+  opened.requests = [];
+  opened.on("request", (request) => opened.requests.push(request.url()));
+  await opened.goto(where);
+  return opened;
+}
+
+const text = (which = page) => which.locator(".cm-content").textContent();
+
+async function openFromGallery(words, which = page) {
+  await which.getByRole("button", { name: "Gallery", exact: true }).click();
+  await which.fill(".gallery .search", words);
+  await which.locator(".card").first().click();
+  await which.locator(".gallery").waitFor({ state: "hidden" });
+}
+
+before(async () => {
+  server = createServer(serve);
+  await new Promise((listening) => server.listen(0, "127.0.0.1", listening));
+  address = `http://127.0.0.1:${server.address().port}${below}`;
+  browser = await openBrowser();
+  page = await openSite(address);
+});
+
+after(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+test("a tree grows in the page, and nothing outside its folder is asked for", async () => {
+  await told(page);
+  await grown(page);
+  await rests(page);
+  await shot(page, "site");
+  const outside = page.requests.filter((url) => !url.startsWith(address) && !/^(blob|data):/.test(url));
+  assert.deepEqual(outside, []);
+  assert.deepEqual(page.problems, []);
+});
+
+test("a model of the library grows, and a number that is edited changes it", async () => {
+  await openFromGallery("Honda");
+  await grown(page);
+  const counted = () => page.locator(".status").textContent();
+  const before = await counted();
+  const steps = page.getByRole("spinbutton", { name: "Steps" }).first();
+  await steps.fill("5");
+  await steps.press("Enter");
+  await page.waitForFunction((was) => document.querySelector(".status").textContent !== was, before);
+  await grown(page);
+  assert.notEqual(await counted(), before);
+  await rests(page);
+  await shot(page, "site-honda");
+});
+
+test("a scene with soil grows, with its fields", async () => {
+  await openFromGallery("two-roots");
+  await page.waitForFunction(() => document.querySelector(".status").dataset.state !== undefined);
+  await grown(page);
+  await rests(page);
+  await shot(page, "site-roots");
+  assert.deepEqual(page.problems, []);
+});
+
+test("unsaved work is found again", async () => {
+  await openFromGallery("Honda");
+  await grown(page);
+  await page.locator(".cm-content").click();
+  await page.keyboard.press("Control+Home");
+  await page.keyboard.type("/* mine */ ");
+  await grown(page);
+  // The browser keeps it when the worker has told of it, ten times a second.
+  await page.waitForFunction(
+    () =>
+      new Promise((found) => {
+        const open = indexedDB.open("espalier-studio", 1);
+        open.onsuccess = () => {
+          const kept = open.result.transaction("files").objectStore("files").get("/state/studio.json");
+          kept.onsuccess = () => {
+            open.result.close();
+            found(kept.result !== undefined && new TextDecoder().decode(kept.result).includes("/* mine */"));
+          };
+        };
+      }),
+  );
+  await page.reload();
+  await told(page);
+  await grown(page);
+  assert.match(await text(), /\/\* mine \*\//);
+});
+
+test("a step that takes too long is stopped, and the text stays", async () => {
+  const long = "lsystem: 1\nderivation length: 40\naxiom: A\nA --> A A A A A A F(0.1)\nendlsystem\n";
+  await page.locator(".cm-content").click();
+  await page.keyboard.press("Control+A");
+  await page.keyboard.insertText(long);
+  await page.waitForFunction(() => document.querySelector(".status").dataset.state === "growing");
+  const stop = page.getByRole("button", { name: "Stop", exact: true });
+  await stop.waitFor();
+  // Steps multiply by six: the worker is deaf before long.
+  await page.waitForFunction(() => /[0-9,]{9,}/.test(document.querySelector(".status").textContent));
+  await stop.click();
+  await page.waitForFunction(() => ["done", "stopped"].includes(document.querySelector(".status").dataset.state));
+  assert.match(await text(), /A A A A A A/);
+});
+
+test("one file works from a disk", async () => {
+  const alone = await openSite(pathToFileURL(join(folder, "espalier.html")).href);
+  await told(alone);
+  await grown(alone);
+  await rests(alone);
+  await shot(alone, "site-file");
+  const outside = alone.requests.filter((url) => !/^(file:.*espalier\.html|blob:|data:)/.test(url));
+  assert.deepEqual(outside, []);
+  assert.deepEqual(alone.problems, []);
+});
