@@ -65,31 +65,61 @@ TEST_CASE_METHOD(Machine, "./dev run needs no VTK and builds what grows alone, s
     CHECK_THAT(calls(), Contains("-DESPALIER_LOOK=ON") && !Contains("UNITY") && Contains("espalier_look_commands"));
 }
 
+namespace {
+
+/// Whether `./dev new` with these words made something in `clone`; what it said is in the file `said`.
+bool made(const std::filesystem::path& clone, const std::filesystem::path& said, const std::string& words) {
+    const std::string command =
+        ESPALIER_SOURCE_DIR "/packaging/new-part " + words + " '" + clone.string() + "' >'" + said.string() + "' 2>&1";
+    return std::system(command.c_str()) == 0;
+}
+
+}  // namespace
+
 TEST_CASE_METHOD(Workplace, "./dev new writes the frame of a process once, and only of a name that can be one",
                  "[docs]") {
     namespace fs = std::filesystem;
-    const fs::path clone = path() / "clone";
+    const fs::path clone = path() / "clone", said = path() / "said";
     for (const char* folder : {"src/environment/light", "tests/environment/light", "docs/examples"}) {
         fs::create_directories(clone / folder);
     }
     for (const char* page : {"docs/clusters.md", "docs/environment-processes.md"}) {
         fs::copy_file(fs::path(ESPALIER_SOURCE_DIR) / page, clone / page);
     }
-    const auto made = [&](const std::string& words) {
-        return std::system((ESPALIER_SOURCE_DIR "/packaging/new-part process " + words + " '" + clone.string() +
-                            "' >'" + (path() / "said").string() + "' 2>&1")
-                               .c_str());
-    };
     for (const char* words : {"wind-sway", "air/wind-sway", "light/Wind", "light/../wind", "light/wind-"}) {
-        CHECK(made(words) != 0);
-        CHECK_THAT(text_of(path() / "said"), Contains("is not SUBJECT/NAME"));
+        CHECK_FALSE(made(clone, said, std::string("process ") + words));
+        CHECK_THAT(text_of(said), Contains("is not SUBJECT/NAME"));
     }
-    REQUIRE(made("light/wind-sway") == 0);
+    REQUIRE(made(clone, said, "process light/wind-sway"));
     CHECK_THAT(text_of(clone / "src/environment/light/wind_sway.cpp"), Contains("class WindSway final"));
     CHECK_THAT(text_of(clone / "tests/environment/light/wind_sway.test.cpp"), Contains("\"wind-sway\""));
     CHECK_THAT(text_of(clone / "docs/examples/wind_sway.toml"), Contains("process = \"wind-sway\""));
     CHECK_THAT(text_of(clone / "docs/clusters.md"), Contains("| `wind-sway` | nothing |"));
     CHECK_THAT(text_of(clone / "docs/environment-processes.md"), Contains("reference/processes/wind-sway.md"));
-    CHECK(made("light/wind-sway") != 0);
-    CHECK_THAT(text_of(path() / "said"), Contains("exists already"));
+    CHECK_FALSE(made(clone, said, "process light/wind-sway"));
+    CHECK_THAT(text_of(said), Contains("exists already"));
+}
+
+TEST_CASE_METHOD(Workplace, "./dev new writes the frames of the other parts", "[docs]") {
+    namespace fs = std::filesystem;
+    const fs::path clone = path() / "clone", said = path() / "said";
+    for (const char* folder :
+         {"src/turtle/stages", "src/turtle/symbols", "src/timeline/recorders", "src/formats/exporters",
+          "tests/turtle/stages", "tests/timeline", "tests/formats", "docs/examples"}) {
+        fs::create_directories(clone / folder);
+    }
+    for (const char* words : {"stage Wind", "symbol half-turn @@@", "symbol half-turn", "recorder si-zes",
+                              "exporter ..", "notation x", ""}) {
+        INFO(words);
+        CHECK_FALSE(made(clone, said, words));
+    }
+    REQUIRE(made(clone, said, "stage wind-sway"));
+    REQUIRE(made(clone, said, "symbol half-turn @h"));
+    REQUIRE(made(clone, said, "recorder sizes"));
+    REQUIRE(made(clone, said, "exporter csv3d"));
+    CHECK_THAT(text_of(clone / "src/turtle/stages/wind_sway.cpp"), Contains("class WindSwayStage final"));
+    CHECK_THAT(text_of(clone / "docs/examples/wind-sway.toml"), Contains("stage = \"wind-sway\""));
+    CHECK_THAT(text_of(clone / "src/turtle/symbols/half_turn.cpp"), Contains("\"@h\""));
+    CHECK_THAT(text_of(clone / "src/timeline/recorders/sizes.cpp"), Contains("\"sizes.csv\""));
+    CHECK_THAT(text_of(clone / "tests/formats/csv3d.test.cpp"), Contains("Exported exported(\"csv3d\")"));
 }

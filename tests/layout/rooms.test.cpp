@@ -138,6 +138,7 @@ const std::map<std::string, std::vector<Room>> stations{
      {
          {"fit", ""},
          {"landscape", ""},
+         {"scan", ""},
          {"sweep", ""},
      }},
     {"studio",

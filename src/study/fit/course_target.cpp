@@ -84,7 +84,7 @@ private:
 
 std::shared_ptr<Target> read_course(const fs::path& file) {
     if (file.extension() != ".csv" && file.extension() != ".tsv") return nullptr;
-    const CsvRows table(file, true);
+    const CsvRows table(file);
     if (table.rows().empty()) return nullptr;
     const std::vector<std::string>& header = table.rows().front().cells;
     const auto column_named = [&](const char* name) {

@@ -68,7 +68,7 @@ private:
 };
 
 bool has_columns_of_marks(const fs::path& file) {
-    const CsvRows table(file, true);
+    const CsvRows table(file);
     if (table.rows().empty()) return false;
     const std::vector<std::string>& header = table.rows().front().cells;
     const auto has = [&](const char* name) { return std::find(header.begin(), header.end(), name) != header.end(); };

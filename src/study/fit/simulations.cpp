@@ -186,7 +186,7 @@ std::size_t Simulations::made(std::size_t generation) const {
 SimulationTable Simulations::read(std::size_t generation, const Proposal* proposal) const {
     SimulationTable table{task_.unknowns.size(), task_.statistics().size(), {}, {}, {}};
     for (std::size_t chunk = 0; chunk < chunks(); ++chunk) {
-        const CsvRows rows(file(generation, chunk), false);
+        const CsvRows rows(file(generation, chunk));
         for (std::size_t i = 1; i < rows.rows().size(); ++i) {
             const CsvRow& row = rows.rows()[i];
             for (std::size_t k = 0; k < table.unknowns; ++k) {

@@ -86,7 +86,7 @@ bool is_name_of_plants(const std::string& column) {
 /// Columns of numbers, each of which is a trait; a column of names may stand beside them.
 std::shared_ptr<Target> read_table(const fs::path& file) {
     if (file.extension() != ".csv" && file.extension() != ".tsv") return nullptr;
-    const CsvRows table(file, true);
+    const CsvRows table(file);
     if (table.rows().size() < 2) return nullptr;
     const std::vector<std::string>& header = table.rows().front().cells;
     const auto has = [&](const char* name) { return std::find(header.begin(), header.end(), name) != header.end(); };

@@ -1,0 +1,35 @@
+// Leaf area density back from the beams of a scan, by voxels, and how it truly is.
+#pragma once
+
+#include "study/scan/scan.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace espalier::study {
+
+struct VoxelDensity {
+    glm::dvec3 middle;
+    std::size_t entered = 0, met = 0;  ///< beams that came into it, and those that met a leaf in it
+    double path = 0;                   ///< m, of all beams within it, up to what they met
+    double estimated = 0;              ///< m2/m3; NaN where no beam came
+    double real = 0;                   ///< m2/m3, one side
+};
+
+struct DensityResult {
+    std::vector<VoxelDensity> voxels;  ///< that beams entered, or that have leaves; x first, then y, then z
+    double estimated_area = 0;         ///< m2, in voxels that beams entered
+    double real_area = 0;              ///< m2, in the same
+    double unseen_area = 0;            ///< m2, where no beam came
+    /// Share of the beams into the box of the plants that meet nothing there.
+    double gap_fraction = 0;
+};
+
+/// Contacts over path lengths: density = contacts / (G * path), whose expectation is right where leaves are small
+/// against voxels (Pimont et al. 2018, eq. 9, without its corrections). G, the mean projection of a unit of leaf area,
+/// is 0.5 for leaves that stand at random. A beam counts by its middle ray.
+DensityResult leaf_density(const ScannedPlants& plants, std::span<const Beam> beams, double range, double voxel,
+                           double projection);
+
+}  // namespace espalier::study
