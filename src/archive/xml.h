@@ -1,8 +1,8 @@
-// The part of XML that the timeline writes: elements, attributes and text; no entities but the five, no CDATA.
-// A library such as pugixml accepts text behind the last element. This reader refuses it, because that is how a .pvd
-// looks while a run is writing its new end over the old one.
+// A whole XML document as a tree. Text after the last element is refused, because that is how a .pvd looks while a run
+// is writing its new end over the old one.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -16,9 +16,9 @@ struct XmlError : std::runtime_error {
 };
 
 struct XmlElement {
-    std::string_view name;
-    std::map<std::string_view, std::string> attributes;
-    std::string_view text;  ///< the first that is not blank
+    std::string name;
+    std::map<std::string, std::string, std::less<>> attributes;
+    std::string_view text;  ///< the first that is not blank, as it stands in the document
     std::vector<XmlElement> children;
 
     /// "" if there is none.
@@ -27,7 +27,8 @@ struct XmlElement {
     const XmlElement* child(std::string_view child_name) const;
 };
 
-/// The document's outermost element, with views of `document`. Throws XmlError saying what is wrong, and where.
+/// The document's outermost element, with views of `document`: arrays of a run may be large. Throws XmlError saying
+/// what is wrong, and where.
 XmlElement parse_xml(std::string_view document);
 
 }  // namespace espalier::archive

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 #include <expat.h>
+#include <limits>
 
 namespace espalier {
 namespace {
@@ -100,9 +101,31 @@ void XmlReader::parse(std::string text) {
     if (!buffer) fail("this file is too long");
     std::copy(text.begin(), text.end(), static_cast<char*>(buffer));
     std::string().swap(text);
-    const XML_Status status = XML_ParseBuffer(parser_.get(), length, 1);
+    require(XML_ParseBuffer(parser_.get(), length, 1) == XML_STATUS_OK);
+}
+
+void XmlReader::parse_in_place(std::string_view text) {
+    if (text.size() > static_cast<std::size_t>(std::numeric_limits<XML_Index>::max())) fail("this file is too long");
+    XML_SetCharacterDataHandler(parser_.get(), nullptr);
+    constexpr std::size_t at_once = std::size_t{1} << 20;  // expat copies what it has not come to the end of
+    do {
+        const std::string_view piece = text.substr(0, at_once);
+        text.remove_prefix(piece.size());
+        require(XML_Parse(parser_.get(), piece.data(), static_cast<int>(piece.size()), text.empty()) == XML_STATUS_OK);
+    } while (!text.empty());
+}
+
+void XmlReader::require(bool is_read) const {
     if (mistake_) std::rethrow_exception(mistake_);
-    if (status != XML_STATUS_OK) fail(XML_ErrorString(XML_GetErrorCode(parser_.get())));
+    if (!is_read) fail(XML_ErrorString(XML_GetErrorCode(parser_.get())));
+}
+
+std::size_t XmlReader::tag_begin() const {
+    return static_cast<std::size_t>(XML_GetCurrentByteIndex(parser_.get()));
+}
+
+std::size_t XmlReader::tag_end() const {
+    return tag_begin() + static_cast<std::size_t>(XML_GetCurrentByteCount(parser_.get()));
 }
 
 Place XmlReader::here() const {

@@ -45,6 +45,13 @@ protected:
     /// throw.
     void parse(std::string text);
 
+    /// The same of a text that stays where it is: text() is empty, and what stands between tags is found by their
+    /// places.
+    void parse_in_place(std::string_view text);
+    /// Where in the text the tag is that begin() or end() is called for.
+    std::size_t tag_begin() const;
+    std::size_t tag_end() const;
+
     virtual void begin(const std::string& element, const XmlAttributes& attributes) = 0;
     virtual void end(const std::string& element) = 0;
 
@@ -56,6 +63,8 @@ protected:
 
 private:
     struct Events;
+
+    void require(bool is_read) const;
 
     std::string name_, text_;
     std::unique_ptr<XML_ParserStruct, void (*)(XML_ParserStruct*)> parser_;

@@ -16,10 +16,10 @@ using Catch::Contains;
 
 namespace {
 
-MarkedPlant marked(const std::string& elements) {
+MarkedPlant marked(const std::string& elements, const std::string& type = "") {
     const TemporaryFolder folder;
-    folder.write("marks.svg",
-                 "<?xml version=\"1.0\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\">" + elements + "</svg>\n");
+    folder.write("marks.svg", "<?xml version=\"1.0\"?>\n" + type + "<svg xmlns=\"http://www.w3.org/2000/svg\">" +
+                                  elements + "</svg>\n");
     return read_marked_plant(folder.path() / "marks.svg");
 }
 
@@ -55,6 +55,21 @@ TEST_CASE("polylines, lines and straight paths are axes, upside down and moved b
     CHECK(plant.axes[1].parent == 0U);
     CHECK(plant.axes[1].parent_node == 1);
     CHECK(plant.axes[2].order == 1);
+}
+
+TEST_CASE("what drawing programs write besides is passed over: a document type, styles as they are, many groups",
+          "[marks]") {
+    std::string groups, ends;
+    for (int i = 0; i < 40; ++i) {
+        groups += "<g transform=\"translate(1, 0)\">";
+        ends += "</g>";
+    }
+    const MarkedPlant plant =
+        marked("<style><![CDATA[ a > b { stroke: red } ]]></style><title>roots &amp; shoots</title>" + groups +
+                   "<polyline points='0,0 0,-50'/>" + ends,
+               "<!DOCTYPE svg PUBLIC \"-//W3C//DTD SVG 1.1//EN\" \"svg11.dtd\">\n");
+    REQUIRE(plant.axes.size() == 1);
+    check_nodes(plant.axes[0], {{40, 0}, {40, 50}});
 }
 
 TEST_CASE("branches that begin at one node are siblings, however roughly they are marked", "[marks]") {

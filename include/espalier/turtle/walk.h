@@ -4,6 +4,7 @@
 #include "espalier/base/stations.h"
 #include "espalier/geometry/free_form.h"
 #include "espalier/turtle/interpretation.h"
+#include "espalier/turtle/open_drawings.h"
 #include "espalier/turtle/row_writer.h"
 
 #include <glm/common.hpp>
@@ -15,7 +16,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -82,32 +82,6 @@ private:
 
 /// What a walk carries from one module to the next.
 struct WalkState {
-    struct OpenPolygon {
-        std::size_t first;
-        std::uint32_t module;
-        bool filled;
-        bool after_step;       ///< its last vertex was marked by a step, which may have been none
-        std::uint16_t colour;  ///< colour of the first vertex, as the look
-        Look look;
-    };
-    struct OpenCylinder {
-        GeneralizedCylinder cylinder;
-        int strips;
-        bool last_is_marked;  ///< by a symbol of its own; the end of an F gives way to one in the same place
-    };
-    struct OpenPatch {
-        BicubicPatch::Basis basis;
-        glm::dvec3 origin;
-        std::array<std::array<std::optional<glm::dvec3>, 5>, 5> points;  ///< counted from 0 or from 1
-    };
-    /// Points in rows, between which a surface is drawn.
-    struct OpenNet {
-        std::size_t columns;
-        std::uint32_t module;
-        std::uint16_t colour;
-        Look look;
-        std::vector<glm::dvec3> points;
-    };
     struct OpenDeformation {
         FreeForm form;
         std::size_t internodes;  ///< drawn before it
@@ -129,11 +103,10 @@ struct WalkState {
     std::vector<DrawnFrame> frame_stack;
     std::vector<SystemScale> systems;  ///< entered sub-L-systems
     std::vector<Brush> brushes;
-    std::vector<OpenPolygon> open_polygons;
-    std::vector<glm::dvec3> open_vertices;
-    std::vector<OpenCylinder> cylinders;
-    std::map<double, OpenPatch> patches;
-    std::vector<OpenNet> nets;
+    OpenPolygons polygons;
+    OpenCylinders cylinders;
+    OpenPatches patches;
+    OpenNets nets;
     std::vector<OpenDeformation> deformations;
     bool is_deformed = false;  ///< something drawn was moved, so its bounds are others
 
@@ -148,6 +121,35 @@ struct WalkState {
 
 /// What a symbol says and the turtle cannot use.
 enum class Ignored : unsigned { up_vector = 1, tropism = 2 };
+
+/// Rotations by angles in degrees. Angles repeat, and sines are dear.
+class KnownRotations {
+public:
+    /// Of what gives no angle.
+    void set_default(double radians) {
+        if (radians == default_angle_) return;
+        default_angle_ = radians;
+        default_rotation_ = Rotation(radians);
+    }
+    Rotation by_default() const { return default_rotation_; }
+    Rotation of(double degrees) {
+        const std::uint64_t bits = std::bit_cast<std::uint64_t>(degrees);
+        Known& known = known_[(bits * 0x9E3779B97F4A7C15u) >> (64 - known_bits)];
+        return known.degrees == degrees ? known.rotation : learn(known, degrees);
+    }
+
+private:
+    struct Known {
+        double degrees = 0;
+        Rotation rotation;
+    };
+    static const Rotation& learn(Known& known, double degrees);
+
+    double default_angle_ = 0;  // radians
+    Rotation default_rotation_;
+    static constexpr int known_bits = 6;  // few angles that a model uses in turn share a place
+    std::array<Known, 1 << known_bits> known_;
+};
 
 class Walk : private WalkState {
 public:
@@ -171,7 +173,11 @@ public:
     const TurtleSettings& settings() const { return *settings_; }
     /// What vector fields read; null if there is nothing.
     const FieldValues* fields() const { return fields_; }
+    using WalkState::cylinders;
     using WalkState::elasticities;
+    using WalkState::nets;
+    using WalkState::patches;
+    using WalkState::polygons;
     using WalkState::stopped;
     TurtleState& turtle() { return turtles.top(); }
     const TurtleState& turtle() const { return turtles.top(); }
@@ -200,35 +206,10 @@ public:
     /// The elasticity of a tropism counted from 1; null if there is no such tropism.
     double* elasticity(double id);
 
-    /// Opens a polygon; a group of vertices that is not `filled` collects them and draws nothing.
-    void open_polygon(bool filled);
-    void close_polygon();
-    void record_vertex() {
-        if (!open_polygons.empty()) add_vertex(false);
-    }
-
     /// Puts a disc, sphere or circle at `pose`; `diameter` in metres, the scale already in it.
     void place(Organ::Shape shape, const Pose& pose, double diameter);
     /// Draws the surface of this id, stretched along left, heading and up, and moves to its end point.
     void place_surface(std::uint32_t id, const glm::dvec3& factors);
-
-    /// Begins a generalized cylinder here. `strips`: between control points that do not say.
-    void begin_cylinder(GeneralizedCylinder::Curve curve, std::optional<double> strips);
-    /// A control point of the open cylinder, `strips` from the one before. In a branch the first begins a cylinder of
-    /// its own, from the last control point of the axis that bears the branch.
-    void control_point(std::optional<double> strips);
-    void end_cylinder(std::optional<double> strips);
-    bool in_cylinder_braces() const { return !open_polygons.empty() && !open_polygons.back().filled; }
-
-    /// Patches whose control points are positions of the turtle, by number.
-    void begin_patch(double id, BicubicPatch::Basis basis);
-    void patch_point(double id, double row, double column);
-    void draw_patch(double id, double rows, double columns);
-
-    /// Nets of points, row by row; a point belongs to the net opened last.
-    void begin_net(double columns);
-    void net_point();
-    void draw_net();
 
     /// What is drawn until the deformation ends is moved then. The turtle itself goes on undisturbed.
     void begin_deformation(FreeForm form);
@@ -242,6 +223,14 @@ public:
     /// Scales lengths and widths until the sub-L-system is left.
     void enter_system(double scale);
     void leave_system();
+
+    /// What the current module draws on, its place in the plant's string, and how it looks.
+    PlantGeometry& geometry() const { return *geometry_; }
+    std::uint32_t module() const { return acting_.module; }
+    Look look() const;
+    /// Throws RunError if the plant's surfaces are more than a timeline could hold: it ends here instead of in the
+    /// memory of the machine.
+    void require_room() const;
 
     const Brush& brush() const { return brushes[turtle().brush]; }
     /// Changes the brush from here on, until the end of the branch.
@@ -275,24 +264,19 @@ public:
 
 private:
     friend class StringWalk;
-    struct KnownRotation {
-        double degrees = 0;
-        Rotation rotation;
+    /// The module that acts, or in whose picture another does.
+    struct Acting {
+        std::uint32_t module = 0;       // its place in the plant's string
+        std::size_t parameters_at = 0;  // where its parameters begin
+        LetterId letter = no_letter;    // its own, or that of one of its picture
+        bool in_picture = false;
     };
 
-    void add_vertex(bool by_step);
     void push_more();
     void pop_more();
     void pop_rest();
-    static const Rotation& learn(KnownRotation& known, double degrees);
     void draw_segment(TurtleState& turtle, const glm::dvec3& base, const glm::dvec3& tip, Box& bounds);
     void keep_frame(const Pose& pose) { drawn_frame = {pose.heading, pose.left}; }
-    void record_control_point(std::optional<double> strips, bool marked);
-    void branch_cylinder();
-    void draw_cylinder(std::int32_t number);
-    void require_room() const;
-    const Contour* contour() const;
-    Look look() const;
     static void add_ball(const glm::dvec3& centre, double radius, Box& bounds) {
         bounds.lower = glm::min(bounds.lower, centre - radius);
         bounds.upper = glm::max(bounds.upper, centre + radius);
@@ -311,20 +295,13 @@ private:
     const std::vector<std::int16_t>* processes_ = nullptr;  // by letter
     std::atomic<unsigned>* ignored_ = nullptr;              // bits of `Ignored`; null: nobody asks
 
-    std::uint32_t module_ = 0;       // index in the plant's string of the module that is drawn
-    std::size_t parameters_at_ = 0;  // where its parameters begin
-    LetterId letter_ = no_letter;    // letter of the module that acts: module_'s own, or one of its picture
-    bool in_picture_ = false;
+    Acting acting_;
 
     static constexpr double thinnest_line = 1e-7;  // cpfg's
     double radius_of_width_ = 0.5;
     bool is_as_cpfg_ = false;
     bool pushes_more_ = false;  // than turtles
-    // Kept from walk to walk: angles repeat, and sines are dear.
-    double default_angle_ = 0;  // radians
-    Rotation default_rotation_;
-    static constexpr int known_bits = 6;  // few angles that a model uses in turn share a place
-    std::array<KnownRotation, 1 << known_bits> known_rotations_;
+    KnownRotations rotations_;  // kept from walk to walk
 };
 
 // --- what the letters of every tree do ------------------------------------------------------------------------------
@@ -341,7 +318,7 @@ private:
     turtle.node_radius = tip_radius;
     if (is_as_cpfg_) keep_frame(turtle.pose);
     Internode& row = internodes_.add();  // unwritten: every member is set
-    row.module = module_;
+    row.module = acting_.module;
     row.axis = turtle.axis;
     row.order = turtle.order;
     row.colour = std::uint16_t(turtle.colour);
@@ -355,11 +332,7 @@ private:
 }
 
 inline Rotation Walk::rotation(std::span<const double> parameters) {
-    if (parameters.empty()) return default_rotation_;
-    const double degrees = parameters[0];
-    const std::uint64_t bits = std::bit_cast<std::uint64_t>(degrees);
-    KnownRotation& known = known_rotations_[(bits * 0x9E3779B97F4A7C15u) >> (64 - known_bits)];
-    return known.degrees == degrees ? known.rotation : learn(known, degrees);
+    return parameters.empty() ? rotations_.by_default() : rotations_.of(parameters[0]);
 }
 
 // Copied number by number and vector by vector, as they are read and written elsewhere: a load that spans two stores
@@ -417,11 +390,11 @@ inline void Walk::pop_rest() {
 }
 
 inline void Walk::answer(std::size_t count) {
-    if (in_picture_) return;
+    if (acting_.in_picture) return;
     TurtleAnswer& row = answers_.add();  // unwritten: every member is set
-    row.module = module_;
+    row.module = acting_.module;
     row.count = std::uint32_t(count);
-    row.parameters_at = parameters_at_;
+    row.parameters_at = acting_.parameters_at;
     row.position = turtle().pose.position;
     row.width = turtle().width;
 }

@@ -6,16 +6,70 @@
 #include "base/parallel.h"
 #include "environment/exchange/answer_statistics.h"
 #include "environment/exchange/parameter_file.h"
-#include "environment/space/neighbours/disc_overlap.h"
+#include "environment/space/neighbours/point_grid.h"
 #include "environment/space/neighbours/reach.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace espalier::environment {
 namespace {
+
+/// One point grid per size, doubling from each to the next, so that one large disc does not make all cells large.
+class DiscOverlap {
+public:
+    DiscOverlap(std::span<const glm::dvec3> centres, std::span<const double> radii);
+
+    /// Calls visit(other) for the discs that overlap disc `i` (distance <= sum of the radii) and are at least of the
+    /// size class of `smallest`, until it returns false. False if it did. Not for `i` itself.
+    template <class Visit>
+    bool visit_overlapping(std::uint32_t i, double smallest, const Visit& visit) const {
+        for (auto level = levels_.rbegin(); level != levels_.rend() && level->largest >= smallest; ++level) {
+            const bool goes_on = level->grid.visit_around(centres_[i], radii_[i] + level->largest, [&](auto other) {
+                const bool apart = glm::distance(centres_[other], centres_[i]) > radii_[other] + radii_[i];
+                return other == i || apart || visit(other);
+            });
+            if (!goes_on) return false;
+        }
+        return true;
+    }
+
+private:
+    struct Level {
+        double largest;  ///< radius
+        PointGrid grid;
+    };
+
+    std::span<const glm::dvec3> centres_;
+    std::span<const double> radii_;
+    std::vector<Level> levels_;  ///< the smallest discs first
+};
+
+DiscOverlap::DiscOverlap(std::span<const glm::dvec3> centres, std::span<const double> radii)
+    : centres_(centres), radii_(radii) {
+    double largest = 0;
+    for (const double radius : radii) largest = std::max(largest, radius);
+    // Below a millionth of the largest all are small alike.
+    const int lowest = largest > 0 ? std::ilogb(largest) - 20 : 0;
+    std::map<int, std::vector<std::uint32_t>> classes;
+    for (std::uint32_t i = 0; i < radii.size(); ++i) {
+        classes[radii[i] > 0 ? std::max(std::ilogb(radii[i]), lowest) : lowest].push_back(i);
+    }
+    for (auto& [size, members] : classes) {
+        const double end = std::ldexp(1.0, size + 1);
+        std::stable_sort(members.begin(), members.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return radii[a] > radii[b]; });
+        levels_.push_back({largest > 0 ? end : 0, PointGrid(centres, members, end)});
+    }
+}
 
 class Ecosystem final : public EnvironmentProcess {
 public:

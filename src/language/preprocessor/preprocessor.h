@@ -4,15 +4,32 @@
 #include "espalier/language/reader.h"
 
 #include "language/preprocessor/macros.h"
-#include "language/preprocessor/setting_comment.h"
 #include "language/text/source.h"
 
 #include <filesystem>
+#include <limits>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace espalier::language {
+
+/// What a comment beside a #define says of it: its words, range and unit.
+struct SettingComment {
+    std::string summary = {};
+    double lowest = -std::numeric_limits<double>::infinity();
+    double highest = std::numeric_limits<double>::infinity();
+    bool whole = false;  ///< "1..400 whole"
+    std::string unit = {};
+};
+
+/// Reads a line as its author wrote it; nothing if it has no comment, or one without a range.
+std::optional<SettingComment> setting_comment(std::string_view line);
+
+/// "Crown" of a line that is nothing but a heading: /* --- Crown --- */ or // --- Crown ---; otherwise "".
+std::string_view heading_of(std::string_view line);
 
 /// A macro whose comment says which numbers it may be.
 struct DocumentedMacro {

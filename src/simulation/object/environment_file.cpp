@@ -1,5 +1,6 @@
 #include "simulation/object/environment_file.h"
 
+#include "espalier/base/error.h"
 #include "espalier/base/file.h"
 #include "espalier/environment/environment_process.h"
 
@@ -7,18 +8,32 @@
 #include "base/toml_text.h"
 #include "environment/exchange/communication.h"
 #include "geometry/grid_operations.h"
-#include "simulation/object/named_file.h"
 #include "simulation/object/plain_lines.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <optional>
+#include <string>
 
 namespace espalier::simulation {
 namespace {
+
+namespace fs = std::filesystem;
+
+/// The file called `name` beside the one that names it, or else in `folder`. Throws UserError if it is in neither.
+fs::path named_file(const std::string& name, const fs::path& beside, const fs::path& folder, const Place& place) {
+    std::error_code ignored;
+    for (const fs::path& where : {beside, folder}) {
+        if (fs::is_regular_file(where / name, ignored)) return where / name;
+    }
+    const std::string there = beside.empty() ? "here" : "in " + beside.string();
+    throw UserError(place, fmt::format("there is no file '{}' {}{}", name, there,
+                                       folder.empty() || folder == beside ? "" : " or in " + folder.string()));
+}
 
 namespace fs = std::filesystem;
 

@@ -1,6 +1,7 @@
 #include "espalier/simulation/simulation.h"
 
 #include "espalier/base/file.h"
+#include "espalier/base/read_log.h"
 #include "espalier/base/stop.h"
 #include "espalier/simulation/world_checkpoint.h"
 #include "espalier/timeline/timeline.h"
@@ -11,7 +12,6 @@
 #include "simulation/run/disk_budget.h"
 #include "simulation/run/run_record.h"
 #include "simulation/run/run_standing.h"
-#include "simulation/run/sealed_file.h"
 #include "simulation/run/written_files.h"
 #include "simulation/scene/expressions.h"
 #include "simulation/world/answer_watch.h"
@@ -21,12 +21,51 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <sstream>
 
 namespace espalier::simulation {
 namespace {
+
+// Sealed files end with a digest of their bytes: what was damaged since is not taken for what was written.
+
+// Returns the digest of the first `bytes` bytes, in pieces: the file may be larger than the memory.
+std::optional<std::uint64_t> digest_of(std::istream& in, std::uintmax_t bytes) {
+    char piece[65536];
+    std::uint64_t sum = digest({});
+    while (bytes > 0) {
+        const std::size_t more = std::min<std::uintmax_t>(sizeof piece, bytes);
+        if (!in.read(piece, static_cast<std::streamsize>(more))) return std::nullopt;
+        sum = digest({piece, more}, sum);
+        bytes -= more;
+    }
+    return sum;
+}
+
+/// Appends the digest; false if the file cannot be read or written.
+bool seal(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+    if (error) return false;
+    std::ifstream in(path, std::ios::binary);
+    const std::optional<std::uint64_t> sum = digest_of(in, bytes);
+    if (!sum) return false;
+    std::ofstream out(path, std::ios::binary | std::ios::app);
+    put(out, *sum);
+    return out.flush().good();
+}
+
+/// False for a file that was never sealed, or is another since.
+bool is_sealed(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+    if (error || bytes < sizeof(std::uint64_t)) return false;
+    std::ifstream in(path, std::ios::binary);
+    const std::optional<std::uint64_t> sum = digest_of(in, bytes - sizeof(std::uint64_t));
+    return sum && get<std::uint64_t>(in) == *sum;
+}
 
 constexpr std::uint64_t signature = 0x33'6e75'52'7370'61;  // "apsRun3"
 constexpr std::uint64_t most_checkpoint_bytes = std::uint64_t{1} << 40;

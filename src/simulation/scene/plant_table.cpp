@@ -1,17 +1,20 @@
 #include "simulation/scene/plant_table.h"
 
 #include "espalier/base/random.h"
+#include "espalier/base/settings.h"
+#include "espalier/language/measured_plants.h"
 #include "espalier/turtle/symbol.h"
 
+#include "language/measured/units.h"
 #include "simulation/object/side_files.h"
 #include "simulation/scene/insertion.h"
 #include "simulation/scene/keyframes.h"
-#include "simulation/scene/measured_table.h"
 #include "simulation/scene/scene_keyframes.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <glm/vec3.hpp>
 
 #include <limits>
 #include <set>
@@ -19,6 +22,32 @@
 
 namespace espalier::simulation {
 namespace {
+
+std::vector<std::string> or_none(std::vector<std::string> words) {
+    words.insert(words.begin(), "");
+    return words;
+}
+
+/// How the file is read: `unit`, `up`, `pixel` and `plants`.
+MeasuredOptions read_measured_options(const Settings& plant) {
+    MeasuredOptions options;
+    options.unit = plant.choice_or("unit", "", or_none(language::measured::length_units()));
+    options.up = plant.choice_or("up", "", or_none(language::measured::upward_axes()));
+    if (plant.has("pixel")) options.pixel = 0.001 * plant.number("pixel", Range::positive());
+    if (plant.has("plants")) {
+        options.separate = plant.choice_or("plants", "separate", {"separate", "together"}) == "separate";
+    }
+    if (options.pixel && !options.unit.empty()) {
+        throw UserError(plant.place("pixel"), "give either 'pixel' or 'unit': the width of a pixel is in millimetres");
+    }
+    return options;
+}
+
+/// What is taken from the places in the file, m: none, or with `begin = "position"` where its first plant begins.
+glm::dvec3 read_measured_shift(const Settings& plant, const MeasuredPlants& plants) {
+    const bool moves = plant.choice_or("begin", "file", {"file", "position"}) == "position";
+    return moves ? plants.plants.front().base : glm::dvec3(0);
+}
 
 constexpr double most_plants = 1e6;
 

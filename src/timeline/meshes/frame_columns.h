@@ -1,6 +1,7 @@
 // A frame's plants as the points, cells and arrays that its file holds.
 #pragma once
 
+#include "espalier/base/settings.h"
 #include "espalier/geometry/frame_geometry.h"
 #include "espalier/timeline/frame.h"
 
@@ -8,15 +9,36 @@
 #include "geometry/drawn/plant_mesh.h"
 #include "timeline/meshes/attribute_arrays.h"
 #include "timeline/meshes/chosen_parameters.h"
-#include "timeline/meshes/organ_quantities.h"
 #include "timeline/meshes/symbol_numbers.h"
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace espalier::timeline {
+
+/// What processes know of organs and a scene wants recorded: `organs = ["light.absorbed"]`.
+class OrganQuantities {
+public:
+    /// Reads the key `organs` of [timeline].
+    explicit OrganQuantities(const Settings& timeline);
+
+    const std::vector<std::string>& names() const { return names_; }
+    std::size_t size() const { return names_.size(); }
+    /// Looks them up, once, among those of the frame's environment. Throws UserError naming the nearest.
+    void find(const Frame& frame);
+    /// Once they are found.
+    std::span<const OrganQuantity> known() const { return known_; }
+    /// "light.absorbed: mol", one for each.
+    std::vector<std::string> units() const;
+
+private:
+    std::vector<std::string> names_;
+    Place place_;
+    std::vector<OrganQuantity> known_;
+};
 
 class VtkFile;
 

@@ -41,21 +41,21 @@ void set_radius_tangents(Walk& walk, std::span<const double> parameters) {
 
 const Registered<Symbol> start_cylinder{
     {"@Gs", {0}, "@Gs: begin a generalized cylinder here", [](Walk& walk, std::span<const double>) {
-         walk.begin_cylinder(GeneralizedCylinder::Curve::open_hermite, {});
+         walk.cylinders.begin(walk, GeneralizedCylinder::Curve::open_hermite, {});
      }}};
 
 const Registered<Symbol> control_point{
     {"@Gc",
      {0, 1},
      "@Gc(strips): a control point of the open cylinder, so many strips from the one before; 1 without parameter",
-     [](Walk& walk, std::span<const double> parameters) { walk.control_point(first(parameters)); }}};
+     [](Walk& walk, std::span<const double> parameters) { walk.cylinders.mark(walk, first(parameters)); }}};
 
 const Registered<Symbol> end_cylinder{{"@Ge",
                                        {0, 1},
                                        "@Ge(strips): the last control point of the open cylinder, as @Gc",
                                        [](Walk& walk, std::span<const double> parameters) {
-                                           walk.control_point(first(parameters));
-                                           walk.end_cylinder(first(parameters));
+                                           walk.cylinders.mark(walk, first(parameters));
+                                           walk.cylinders.end(walk, first(parameters));
                                        }}};
 
 const Registered<Symbol> tangents{

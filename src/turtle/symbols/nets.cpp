@@ -8,18 +8,18 @@ const Registered<Symbol> begin_net{
     {"@Nb",
      {1},
      "@Nb(columns): begin a net of points with so many in each row",
-     [](Walk& walk, std::span<const double> parameters) { walk.begin_net(parameters[0]); }}};
+     [](Walk& walk, std::span<const double> parameters) { walk.nets.begin(walk, parameters[0]); }}};
 
 const Registered<Symbol> net_point{
     {"@Np", {0}, "@Np: the turtle's position is the next point of the net", [](Walk& walk, std::span<const double>) {
-         walk.net_point();
+         walk.nets.mark(walk);
      }}};
 
 const Registered<Symbol> end_net{
     {"@Ne",
      {0},
      "@Ne: draw the net; u runs along its rows and v from the first row to the last, 0 to 1",
-     [](Walk& walk, std::span<const double>) { walk.draw_net(); }}};
+     [](Walk& walk, std::span<const double>) { walk.nets.draw(walk); }}};
 
 const Registered<SymbolGroup> nets_group{
     {"nets",

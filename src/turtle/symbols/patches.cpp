@@ -11,7 +11,7 @@ const Registered<Symbol> begin_patch{
      [](Walk& walk, std::span<const double> parameters) {
          using enum BicubicPatch::Basis;
          const double basis = parameters.size() > 1 ? parameters[1] : 1;
-         walk.begin_patch(parameters[0], basis == 2 ? b_spline : basis == 3 ? cardinal : bezier);
+         walk.patches.begin(walk, parameters[0], basis == 2 ? b_spline : basis == 3 ? cardinal : bezier);
      }}};
 
 const Registered<Symbol> patch_point{
@@ -19,7 +19,7 @@ const Registered<Symbol> patch_point{
      {3},
      "@PC(patch, row, column): the turtle's position is this control point; both count from 0, or from 1",
      [](Walk& walk, std::span<const double> parameters) {
-         walk.patch_point(parameters[0], parameters[1], parameters[2]);
+         walk.patches.mark(walk, parameters[0], parameters[1], parameters[2]);
      }}};
 
 const Registered<Symbol> draw_patch{
@@ -28,7 +28,7 @@ const Registered<Symbol> draw_patch{
      "@PD(patch, rows, columns): draw the patch, divided into so many quadrilaterals; 5 by 5 if left out",
      [](Walk& walk, std::span<const double> parameters) {
          const bool divided = parameters.size() == 3;
-         walk.draw_patch(parameters[0], divided ? parameters[1] : 5, divided ? parameters[2] : 5);
+         walk.patches.draw(walk, parameters[0], divided ? parameters[1] : 5, divided ? parameters[2] : 5);
      }}};
 
 const Registered<SymbolGroup> patches_group{

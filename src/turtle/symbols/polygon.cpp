@@ -19,9 +19,9 @@ const Registered<Symbol> open_polygon{
      "3 open B-spline, 4 closed",
      [](Walk& walk, std::span<const double> parameters) {
          const bool is_curve = !parameters.empty() && parameters[0] >= 1 && parameters[0] < 5;
-         walk.open_polygon(!is_curve);
+         walk.polygons.begin(walk, !is_curve);
          if (!is_curve) return;
-         walk.begin_cylinder(GeneralizedCylinder::Curve(int(parameters[0])), second(parameters));
+         walk.cylinders.begin(walk, GeneralizedCylinder::Curve(int(parameters[0])), second(parameters));
      }}};
 
 const Registered<Symbol> close_polygon{
@@ -29,8 +29,8 @@ const Registered<Symbol> close_polygon{
      {},
      "}: end the polygon and fill it; fewer than three vertices draw nothing. Ends a cylinder begun by {",
      [](Walk& walk, std::span<const double> parameters) {
-         if (walk.in_cylinder_braces()) walk.end_cylinder(second(parameters));
-         walk.close_polygon();
+         if (walk.polygons.is_unfilled()) walk.cylinders.end(walk, second(parameters));
+         walk.polygons.end(walk);
      }}};
 
 const Registered<Symbol> polygon_vertex{
@@ -40,9 +40,9 @@ const Registered<Symbol> polygon_vertex{
      "there; .(strips): a control point of the open "
      "cylinder",
      [](Walk& walk, std::span<const double> parameters) {
-         if (!parameters.empty()) return walk.control_point(parameters[0]);
-         if (walk.in_cylinder_braces()) return walk.control_point({});
-         walk.record_vertex();
+         if (!parameters.empty()) return walk.cylinders.mark(walk, parameters[0]);
+         if (walk.polygons.is_unfilled()) return walk.cylinders.mark(walk, {});
+         walk.polygons.mark(walk);
      }}};
 
 const Registered<SymbolGroup> polygon_group{

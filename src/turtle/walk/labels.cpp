@@ -30,7 +30,7 @@ void Walk::write_label(std::span<const double> values) {
     std::string written = filled(*this, *format, values.subspan(1));
     if (written.size() > longest_label) written.resize(longest_label);
     geometry_->labels.push_back(
-        {module_, turtle().order, std::uint16_t(turtle().colour), turtle().pose.position, std::move(written)});
+        {acting_.module, turtle().order, std::uint16_t(turtle().colour), turtle().pose.position, std::move(written)});
     geometry_->bounds.add(turtle().pose.position);
 }
 

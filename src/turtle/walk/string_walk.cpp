@@ -338,9 +338,9 @@ std::size_t StringWalk::draw_picture(std::size_t module, std::size_t at) {
         derivation_->picture(string, looks_around ? &offsets_ : nullptr, links_, module, at, picture_);
     if (replaced == 0) return 0;
 
-    walk_.module_ = std::uint32_t(module);
-    walk_.parameters_at_ = at;
-    walk_.in_picture_ = true;
+    walk_.acting_.module = std::uint32_t(module);
+    walk_.acting_.parameters_at = at;
+    walk_.acting_.in_picture = true;
     const double* values = picture_.parameters.data();
     constexpr std::size_t between_looks = 8192;
     for (std::size_t i = 0; i < picture_.size() && !walk_.stopped; ++i) {
@@ -352,11 +352,11 @@ std::size_t StringWalk::draw_picture(std::size_t module, std::size_t at) {
             i = match.module;
             meaning = &match.meaning;
         }
-        walk_.letter_ = picture_.letters[i];
+        walk_.acting_.letter = picture_.letters[i];
         if (meaning->action) meaning->action(walk_, {values, meaning->arity});
         values += meaning->arity;
     }
-    walk_.in_picture_ = false;
+    walk_.acting_.in_picture = false;
     return replaced;
 }
 

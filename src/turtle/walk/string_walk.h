@@ -41,13 +41,13 @@ private:
     std::size_t run_along(std::size_t begin, std::size_t end, std::size_t& at);
     std::size_t next_action(std::size_t begin, std::size_t end) const;
     /// False if tropisms bend what is drawn, or a polygon takes its vertices.
-    bool draws_plainly() const { return walk_.settings_->tropisms.empty() && walk_.open_polygons.empty(); }
+    bool draws_plainly() const { return walk_.settings_->tropisms.empty() && walk_.polygons.empty(); }
     /// Walks along letters that need no action; returns where one does.
     std::size_t go_ahead(std::size_t begin, std::size_t end, std::size_t& at);
     void act(std::size_t module, LetterId letter, const LetterMeaning& meaning, std::size_t at) {
-        walk_.module_ = std::uint32_t(module);
-        walk_.parameters_at_ = at;
-        walk_.letter_ = letter;
+        walk_.acting_.module = std::uint32_t(module);
+        walk_.acting_.parameters_at = at;
+        walk_.acting_.letter = letter;
         meaning.action(walk_, {string_->parameters.data() + at, meaning.arity});
     }
     /// Returns how many modules the picture stands for, 0 if there is none.

@@ -25,8 +25,9 @@ int index_of(double number) {
 void Walk::place_surface(std::uint32_t id, const glm::dvec3& factors) {
     const glm::dvec3 size = factors * turtle().scale;
     if (!std::isfinite(size.x + size.y + size.z)) fail("the size of a surface is not a number");
-    Organ organ{module_, Organ::Shape::surface, turtle().order, std::uint16_t(turtle().colour),
-                id,      turtle().pose,         size,           look()};
+    Organ organ{
+        acting_.module, Organ::Shape::surface, turtle().order, std::uint16_t(turtle().colour), id, turtle().pose, size,
+        look()};
     if (!settings_->shapes) {  // without the shapes of surfaces the organ marks where they would be
         geometry_->organs.push_back(organ);
         geometry_->bounds.add(turtle().pose.position);
@@ -57,23 +58,23 @@ void Walk::place_surface(std::uint32_t id, const glm::dvec3& factors) {
     if (end != pose.position) jump(end);
 }
 
-void Walk::begin_patch(double id, BicubicPatch::Basis basis) {
+void OpenPatches::begin(const Walk& walk, double id, BicubicPatch::Basis basis) {
     if (std::isnan(id)) return;
-    OpenPatch& patch = patches[std::trunc(id)];
-    patch = {basis, turtle().pose.position, {}};
+    Open& patch = open_[std::trunc(id)];
+    patch = {basis, walk.turtle().pose.position, {}};
 }
 
-void Walk::patch_point(double id, double row, double column) {
-    const auto patch = patches.find(std::trunc(id));
+void OpenPatches::mark(const Walk& walk, double id, double row, double column) {
+    const auto patch = open_.find(std::trunc(id));
     const int i = index_of(row), j = index_of(column);
-    if (patch == patches.end() || i < 0 || j < 0) return;
-    patch->second.points[std::size_t(i)][std::size_t(j)] = turtle().pose.position;
+    if (patch == open_.end() || i < 0 || j < 0) return;
+    patch->second.points[std::size_t(i)][std::size_t(j)] = walk.turtle().pose.position;
 }
 
-void Walk::draw_patch(double id, double rows, double columns) {
-    const auto open = patches.find(std::trunc(id));
-    if (open == patches.end()) return;
-    const auto& points = open->second.points;
+void OpenPatches::draw(const Walk& walk, double id, double rows, double columns) const {
+    const auto found = open_.find(std::trunc(id));
+    if (found == open_.end()) return;
+    const auto& points = found->second.points;
     // A model that counts from 1 fills row 4 or column 4, and neither row 0 nor column 0.
     bool has_first = false, has_last = false;
     for (std::size_t k = 0; k < 5; ++k) {
@@ -83,55 +84,56 @@ void Walk::draw_patch(double id, double rows, double columns) {
     const std::size_t first = has_last && !has_first ? 1 : 0;
     Surface surface;
     BicubicPatch& patch = surface.patches.emplace_back();
-    patch.basis = open->second.basis;
+    patch.basis = found->second.basis;
     for (std::size_t i = 0; i < 4; ++i) {
         for (std::size_t j = 0; j < 4; ++j) {
-            patch.points[i][j] = points[i + first][j + first].value_or(open->second.origin);
+            patch.points[i][j] = points[i + first][j + first].value_or(found->second.origin);
         }
     }
     surface.precision_s = precision(rows);
     surface.precision_t = precision(columns);
 
     const SurfaceMesh mesh = mesh_of(surface);
-    DrawnMesh& drawn = geometry_->mesh;
+    DrawnMesh& drawn = walk.geometry().mesh;
     const auto origin = std::uint32_t(drawn.vertices.size());
     const auto first_index = std::uint32_t(drawn.triangles.size());
     for (const SurfaceVertex& vertex : mesh.vertices) {
         drawn.vertices.push_back(vertex);
-        geometry_->bounds.add(vertex.position);
+        walk.geometry().bounds.add(vertex.position);
     }
     for (std::size_t i = 0; i < mesh.indices.size(); i += 4) {
         const auto corner = [&](std::size_t k) { return origin + mesh.indices[i + k]; };
         drawn.triangles.insert(drawn.triangles.end(),
                                {corner(0), corner(1), corner(2), corner(0), corner(2), corner(3)});
     }
-    drawn.pieces.push_back({module_, first_index, std::uint32_t(drawn.triangles.size()) - first_index, turtle().order,
-                            std::uint16_t(turtle().colour), look(), MeshPiece::Kind::patch});
-    require_room();
+    drawn.pieces.push_back({walk.module(), first_index, std::uint32_t(drawn.triangles.size()) - first_index,
+                            walk.turtle().order, std::uint16_t(walk.turtle().colour), walk.look(),
+                            MeshPiece::Kind::patch});
+    walk.require_room();
 }
 
-void Walk::begin_net(double columns) {
+void OpenNets::begin(const Walk& walk, double columns) {
     constexpr double most = 1e6;
-    if (!(columns >= 2 && columns <= most)) fail("a net has two to a million columns");
-    nets.push_back({std::size_t(columns), module_, std::uint16_t(turtle().colour), look(), {}});
+    if (!(columns >= 2 && columns <= most)) walk.fail("a net has two to a million columns");
+    open_.push_back({std::size_t(columns), walk.module(), std::uint16_t(walk.turtle().colour), walk.look(), {}});
 }
 
-void Walk::net_point() {
-    if (!nets.empty()) nets.back().points.push_back(turtle().pose.position);
+void OpenNets::mark(const Walk& walk) {
+    if (!open_.empty()) open_.back().points.push_back(walk.turtle().pose.position);
 }
 
-void Walk::draw_net() {
-    if (nets.empty()) return;
-    const OpenNet net = std::move(nets.back());
-    nets.pop_back();
+void OpenNets::draw(const Walk& walk) {
+    if (open_.empty()) return;
+    const Open net = std::move(open_.back());
+    open_.pop_back();
     const std::size_t columns = net.columns, rows = net.points.size() / columns;
     if (rows < 2) return;
-    DrawnMesh& drawn = geometry_->mesh;
+    DrawnMesh& drawn = walk.geometry().mesh;
     const std::size_t origin = drawn.vertices.size(), first = drawn.triangles.size();
     for (std::size_t k = 0; k < rows * columns; ++k) {
         const glm::dvec2 uv(double(k % columns) / double(columns - 1), double(k / columns) / double(rows - 1));
         drawn.vertices.push_back({net.points[k], glm::dvec3(0), uv});
-        geometry_->bounds.add(net.points[k]);
+        walk.geometry().bounds.add(net.points[k]);
     }
     const auto add_triangle = [&](std::size_t a, std::size_t b, std::size_t c) {
         const auto place = [&](std::size_t k) { return drawn.vertices[origin + k].position; };
@@ -153,8 +155,8 @@ void Walk::draw_net() {
         normal = length > 0 ? normal / length : glm::dvec3(0, 0, 1);
     }
     drawn.pieces.push_back({net.module, std::uint32_t(first), std::uint32_t(drawn.triangles.size() - first),
-                            turtle().order, net.colour, net.look, MeshPiece::Kind::patch});
-    require_room();
+                            walk.turtle().order, net.colour, net.look, MeshPiece::Kind::patch});
+    walk.require_room();
 }
 
 }  // namespace espalier::turtle

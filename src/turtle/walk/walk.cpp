@@ -19,12 +19,6 @@ bool finite(const glm::dvec3& vector) {
     return std::isfinite(vector.x + vector.y + vector.z);
 }
 
-/// True if a polygon comes back to its first vertex, but for rounding.
-bool meet(const glm::dvec3& first, const glm::dvec3& second, const glm::dvec3& last) {
-    constexpr double rounding = 1e-9;
-    return glm::distance(first, last) <= rounding * glm::distance(first, second);
-}
-
 bool same(const std::vector<double>& a, const std::vector<double>& b) {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
 }
@@ -61,8 +55,7 @@ void WalkState::clear() {
     frame_stack.clear();
     systems.clear();
     brushes.clear();
-    open_polygons.clear();
-    open_vertices.clear();
+    polygons.clear();
     cylinders.clear();
     patches.clear();
     nets.clear();
@@ -71,7 +64,7 @@ void WalkState::clear() {
 }
 
 bool WalkState::is_between_drawings() const {
-    return !stopped && brushes.size() == 1 && open_polygons.empty() && cylinders.empty() && patches.empty() &&
+    return !stopped && brushes.size() == 1 && polygons.empty() && cylinders.empty() && patches.empty() &&
            nets.empty() && deformations.empty() && !is_deformed;
 }
 
@@ -97,10 +90,7 @@ void Walk::begin(const Model& model, const ModuleString& string, const TurtleSet
     geometry_ = &result.geometry;
     directions_ = &result.directions;
     plant_ = plant;
-    module_ = 0;
-    parameters_at_ = 0;
-    letter_ = no_letter;
-    in_picture_ = false;
+    acting_ = {};
     if (room) {
         internodes_.open(room->internodes);
         queries_.open(room->queries);
@@ -111,10 +101,7 @@ void Walk::begin(const Model& model, const ModuleString& string, const TurtleSet
         answers_.open(result.answers);
     }
     radius_of_width_ = settings.line_style == LineStyle::pixel ? 0 : 0.5;
-    if (settings.angle != default_angle_) {
-        default_angle_ = settings.angle;
-        default_rotation_ = Rotation(settings.angle);
-    }
+    rotations_.set_default(settings.angle);
     TurtleState& turtle = turtles.top();
     turtle.pose = settings.pose;
     turtle.width = settings.line_width.value_or(1);
@@ -155,8 +142,8 @@ void Walk::move(double distance, bool draws, bool records_vertex) {
         apply_older_tropism(turtle.pose, glm::normalize(settings_->tropism_direction), turtle.elasticity);
     }
     if (!finite(turtle.pose.position)) fail("the turtle's position is not a number any more");
-    if (records_vertex && !open_polygons.empty()) add_vertex(true);
-    if (turtle.cylinder >= 0 && draws && records_vertex) record_control_point({}, false);
+    if (records_vertex) polygons.end_step(*this);
+    if (turtle.cylinder >= 0 && draws && records_vertex) cylinders.end_step(*this);
     if (!draws) {
         turtle.on_axis = false;
         return;
@@ -189,7 +176,7 @@ void Walk::set_scale(double scale) {
     turtle().scale = scale;
 }
 
-const Rotation& Walk::learn(KnownRotation& known, double degrees) {
+const Rotation& KnownRotations::learn(Known& known, double degrees) {
     known = {degrees, rotation_of_degrees(degrees)};
     return known.rotation;
 }
@@ -213,58 +200,27 @@ double* Walk::elasticity(double id) {
     return id >= 1 && id < double(elasticities.size()) + 1 ? &elasticities[std::size_t(id) - 1] : nullptr;
 }
 
-void Walk::open_polygon(bool filled) {
-    open_polygons.push_back({open_vertices.size(), module_, filled, false, 0, {}});
-}
-
-// The colour of a polygon is that of its first vertex, as in cpfg. A `.` behind an `f` means the vertex that the `f`
-// marked.
-void Walk::add_vertex(bool by_step) {
-    OpenPolygon& polygon = open_polygons.back();
-    const glm::dvec3& position = turtle().pose.position;
-    const bool is_first = open_vertices.size() == polygon.first;
-    const bool is_marked = !by_step && !is_first && polygon.after_step && open_vertices.back() == position;
-    polygon.after_step = by_step;
-    if (is_marked) return;
-    if (is_first) {
-        polygon.colour = std::uint16_t(turtle().colour);
-        polygon.look = look();
-    }
-    open_vertices.push_back(position);
-}
-
-void Walk::close_polygon() {
-    // A cut may have taken the `{` away: then there is nothing to fill.
-    if (open_polygons.empty()) return;
-    const OpenPolygon polygon = open_polygons.back();
-    open_polygons.pop_back();
-    std::size_t count = open_vertices.size() - polygon.first;
-    if (count > 3 && meet(open_vertices[polygon.first], open_vertices[polygon.first + 1], open_vertices.back()))
-        --count;
-    if (polygon.filled && count >= 3) {
-        geometry_->polygons.push_back({polygon.module, std::uint32_t(geometry_->vertices.size()), std::uint32_t(count),
-                                       turtle().order, polygon.colour, polygon.look});
-        const auto first = open_vertices.begin() + std::ptrdiff_t(polygon.first);
-        const auto last = first + std::ptrdiff_t(count);
-        geometry_->vertices.insert(geometry_->vertices.end(), first, last);
-        Box& bounds = geometry_->bounds;
-        std::for_each(first, last, [&](const glm::dvec3& vertex) {
-            bounds.lower = glm::min(bounds.lower, vertex);
-            bounds.upper = glm::max(bounds.upper, vertex);
-        });
-    }
-    open_vertices.resize(polygon.first);
-}
-
 void Walk::place(Organ::Shape shape, const Pose& pose, double diameter) {
     if (!std::isfinite(diameter)) fail("the size of an organ is not a number");
-    geometry_->organs.push_back({module_, shape, turtle().order, std::uint16_t(turtle().colour), 0, pose,
+    geometry_->organs.push_back({acting_.module, shape, turtle().order, std::uint16_t(turtle().colour), 0, pose,
                                  glm::dvec3(diameter), look(), std::uint16_t(brush().sides)});
     add_ball(pose.position, std::abs(diameter) / 2, geometry_->bounds);
 }
 
 Look Walk::look() const {
     return {std::uint16_t(turtle().back_colour < 0 ? turtle().colour : turtle().back_colour), turtle().texture};
+}
+
+void Walk::require_room() const {
+    constexpr std::size_t most_vertices = std::size_t{1} << 27;
+    if (geometry_->mesh.vertices.size() > most_vertices)
+        fail("the plant's surfaces have more than 134 million vertices");
+}
+
+void Walk::finish() {
+    cylinders.draw_all(*this);
+    while (!nets.empty()) nets.draw(*this);
+    while (!deformations.empty()) end_deformation();
 }
 
 void Walk::enter_system(double scale) {
@@ -286,21 +242,21 @@ void Walk::leave_system() {
 }
 
 void Walk::ask() {
-    const std::size_t arity = model_->alphabet.arity(letter_);
-    if (in_picture_ || arity == 0) return;
-    const std::size_t next = std::size_t(module_) + 1;
+    const std::size_t arity = model_->alphabet.arity(acting_.letter);
+    if (acting_.in_picture || arity == 0) return;
+    const std::size_t next = std::size_t(acting_.module) + 1;
     const bool last = next >= string_->size(), known = string_->has_lineage();
-    const double* const values = string_->parameters.data() + parameters_at_;
+    const double* const values = string_->parameters.data() + acting_.parameters_at;
     Query& query = queries_.add();  // unwritten: every member is set
-    query.process = processes_ ? (*processes_)[letter_] : std::int16_t(-1);
+    query.process = processes_ ? (*processes_)[acting_.letter] : std::int16_t(-1);
     query.following = last ? no_letter : string_->letters[next];
     query.plant = plant_;
-    query.module = module_;
-    query.parameters_at = parameters_at_;
+    query.module = acting_.module;
+    query.parameters_at = acting_.parameters_at;
     query.parameters = {values, arity};
     query.following_parameters = {};
     if (!last) query.following_parameters = {values + arity, std::size_t(model_->alphabet.arity(query.following))};
-    query.identity = known ? string_->identity(module_) : 0;
+    query.identity = known ? string_->identity(acting_.module) : 0;
     query.following_identity = known && !last ? string_->identity(next) : 0;
     query.pose = turtle().pose;
     query.width = turtle().width;
@@ -308,9 +264,9 @@ void Walk::ask() {
 }
 
 void Walk::answer_with(const std::array<double, 4>& values, std::size_t count) {
-    if (in_picture_) return;
+    if (acting_.in_picture) return;
     answer(0);
-    directions_->push_back({parameters_at_, count, values});
+    directions_->push_back({acting_.parameters_at, count, values});
 }
 
 void Walk::ignore(Ignored what) const {
@@ -319,7 +275,7 @@ void Walk::ignore(Ignored what) const {
 }
 
 const std::string& Walk::symbol() const {
-    return model_->alphabet.name(letter_);
+    return model_->alphabet.name(acting_.letter);
 }
 
 void Walk::fail(const char* what) const {
@@ -328,18 +284,18 @@ void Walk::fail(const char* what) const {
 
 void Walk::fail(const std::string& what) const {
     constexpr std::size_t before = 12, after = 4;
-    const std::size_t first = module_ > before ? module_ - before : 0;
-    const std::size_t last = std::min(string_->size(), std::size_t(module_) + after);
-    std::size_t at = parameters_at_;
-    for (std::size_t i = first; i < module_; ++i) at -= std::size_t(model_->alphabet.arity(string_->letters[i]));
+    const std::size_t first = acting_.module > before ? acting_.module - before : 0;
+    const std::size_t last = std::min(string_->size(), std::size_t(acting_.module) + after);
+    std::size_t at = acting_.parameters_at;
+    for (std::size_t i = first; i < acting_.module; ++i) at -= std::size_t(model_->alphabet.arity(string_->letters[i]));
     ModuleString context;
     for (std::size_t i = first; i < last; ++i) {
         const auto arity = std::size_t(model_->alphabet.arity(string_->letters[i]));
         context.append(string_->letters[i], {string_->parameters.data() + at, arity});
         at += arity;
     }
-    throw RunError(fmt::format("{}: {}, at module {} of plant {}{}: {}{}{}", model_->name, what, module_, plant_,
-                               in_picture_ ? " (in its picture)" : "", first > 0 ? "..." : "",
+    throw RunError(fmt::format("{}: {}, at module {} of plant {}{}: {}{}{}", model_->name, what, acting_.module, plant_,
+                               acting_.in_picture ? " (in its picture)" : "", first > 0 ? "..." : "",
                                to_text(context, model_->alphabet), last < string_->size() ? "..." : ""));
 }
 

@@ -78,6 +78,32 @@ TEST_CASE("the skies of the CIE: type 5 is uniform, type 1 overcast, type 12 bri
     CHECK(clear(at(1.0, 0.2)) == Approx(by_hand).epsilon(1e-12));
 }
 
+TEST_CASE("Perez' sky is his formula, and by the rise and the angle to the sun the same as by direction", "[sky]") {
+    const glm::dvec3 sun = at(0.5, 4);
+    const SkyRadiance sky = SkyRadiance::perez({-1.2, -0.5, 6, -2.5, 0.3}, sun);
+    for (const glm::dvec3& towards : {at(0.1, 0), at(0.9, 2), at(1.4, 5)}) {
+        const double apart = std::acos(glm::dot(towards, sun));
+        const double by_hand = (1 - 1.2 * std::exp(-0.5 / towards.y)) *
+                               (1 + 6 * std::exp(-2.5 * apart) + 0.3 * std::cos(apart) * std::cos(apart));
+        CHECK(sky(towards) == Approx(by_hand).epsilon(1e-12));
+        CHECK(sky.at(towards.y, apart) == Approx(by_hand).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("directions like a sunflower's seeds lie evenly: their mean and their moments are those of the sphere",
+          "[sky]") {
+    constexpr int count = 1000;
+    glm::dvec3 mean(0), squares(0);
+    for (int i = 0; i < count; ++i) {
+        const glm::dvec3 towards = sunflower_direction(i, 1 - (2 * i + 1.0) / count);
+        CHECK(glm::length(towards) == Approx(1).epsilon(1e-14));
+        mean += towards / double(count);
+        squares += towards * towards / double(count);
+    }
+    CHECK(glm::length(mean) < 1e-3);
+    for (int axis = 0; axis < 3; ++axis) CHECK(squares[axis] == Approx(1.0 / 3).margin(1e-3));
+}
+
 TEST_CASE("the shares of 5 x 8 parts give the mean cosine of the light of a sky", "[sky]") {
     const glm::dvec3 sun = at(0.9, 2.2);
     for (const SkyRadiance& sky : {SkyRadiance::uniform(), SkyRadiance::overcast(), SkyRadiance::cie(12, sun)}) {

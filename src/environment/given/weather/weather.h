@@ -5,17 +5,31 @@
 #include "espalier/environment/environment_process.h"
 #include "espalier/geometry/field.h"
 
-#include "environment/given/weather/thermal_time.h"
 #include "environment/given/weather/weather_table.h"
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace espalier::environment {
+
+/// Degrees that count at a temperature: none below the base, rising to optimum - base, then falling to none at the
+/// ceiling; without a ceiling they stay (Wang & Engel 1998 name the three cardinal temperatures).
+struct ThermalTime {
+    double base = 0, optimum = std::numeric_limits<double>::infinity();
+    double ceiling = std::numeric_limits<double>::infinity();
+
+    double at(double temperature) const;
+    /// The mean while the temperature changes evenly from one to another, exactly.
+    double mean_between(double begin, double end) const;
+
+private:
+    double integral_to(double temperature) const;
+};
 
 /// The air of a step: means, and sums since the step before.
 struct AirOfStep {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace espalier::environment {
 namespace {
@@ -156,6 +157,27 @@ soil_map      { picture = "soil.png", corner = [0, 0], size = [1, 1] }: between 
               to `soil_bright`; the picture covers size metres along x and z from its corner on, and is repeated
 )";
     return text;
+}
+
+SoilMap::SoilMap(const Settings& table) {
+    if (table.keys().empty()) return;
+    picture_ = read_picture(table.path("picture"));
+    const std::vector<double> corner = table.numbers_or("corner", {0, 0}), size = table.numbers_or("size", {1, 1});
+    if (corner.size() != 2) throw UserError(table.place("corner"), "'corner' must be [x, z]");
+    if (size.size() != 2 || !(size[0] > 0 && size[1] > 0)) {
+        throw UserError(table.place("size"), "'size' must be [x, z], both above 0");
+    }
+    x_ = corner[0];
+    z_ = corner[1];
+    width_ = size[0];
+    depth_ = size[1];
+}
+
+double SoilMap::brightness(const glm::dvec3& place) const {
+    if (picture_.empty()) return 0;
+    const double u = (place.x - x_) / width_, v = (place.z - z_) / depth_;
+    const Picture::Colour& pixel = picture_.at(u - std::floor(u), v - std::floor(v));
+    return (0.2126 * pixel[0] + 0.7152 * pixel[1] + 0.0722 * pixel[2]) / 255;
 }
 
 }  // namespace espalier::environment

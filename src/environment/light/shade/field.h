@@ -3,12 +3,22 @@
 #pragma once
 
 #include "environment/light/shade/bricks.h"
-#include "environment/light/shade/changes.h"
+#include "environment/light/shade/pyramid.h"
 #include "environment/light/shade/sweep.h"
 
 #include <cstddef>
 
 namespace espalier::environment {
+
+/// What changed between the pyramids of two steps.
+struct ShadeChanges {
+    std::vector<ShadeCast> gone, come;
+};
+
+/// Leaves in `changes` pyramids that are only in `before` or only in `now`, perhaps with some that are in both: lists
+/// are read once, side by side, for a plant keeps the order of its organs. False if there are more than `most`.
+bool find_changes(std::span<const ShadeCast> before, std::span<const ShadeCast> now, std::size_t most,
+                  ShadeChanges& changes);
 
 /// The part of a square that lies in a brick: rows from `left` to `right`, of each the voxels from `back` to `front`.
 struct ShadePart {
