@@ -247,6 +247,8 @@ entry environments/price-of-shade-alone.toml "A tree that pays for no neighbour"
 entry environments/yield-by-density.toml "A dense field" "Shinozaki & Kira 1956" --
 entry environments/fruiting-shoot.toml "A shoot with six fruits" "Allen, Prusinkiewicz & DeJong 2005" -- --colour-by carbon.sugar --no-legend
 grown_by environments/fruiting-shoot.toml models/light/fruiting-shoot.l "A shoot that bears fruit" "ours"
+entry environments/drought-stand.toml "Careful and daring plants in a drought" "Tuzet, Perrier & Leuning 2003; ours" --steps 390 -- --colour-by roots.plc --no-legend
+grown_by environments/drought-stand.toml models/water/thirsty.l "A plant that loses leaves which dry" "ours"
 grown_by environments/leaf-day.toml models/water/drinking.l "A plant that drinks" "ours"
 entry environments/root-drought.toml "A root in a drought" "Doussan et al. 1998; Schroeder et al. 2008" --steps 48 -- --field water:slice --no-legend
 entry environments/hydraulic-lift.toml "Water lifted at night" "Richards & Caldwell 1987" --steps 72 -- --field roots:slice --no-legend

@@ -35,7 +35,7 @@ grow storm-on-layers environments/storm-on-layers.toml
 grow root-drought environments/root-drought.toml
 grow nitrate-in-rain environments/nitrate-in-rain.toml
 grow hydraulic-lift environments/hydraulic-lift.toml
-for scene in leaf-day price-of-shade price-of-shade-alone fruiting-shoot drought-deep drought-shallow intercrop intercrop-maize intercrop-lupine split-pot; do
+for scene in leaf-day drought-stand price-of-shade price-of-shade-alone fruiting-shoot drought-deep drought-shallow intercrop intercrop-maize intercrop-lupine split-pot; do
     grow "$scene" "environments/$scene.toml"
 done
 grow plough-pan environments/plough-pan.toml
@@ -228,6 +228,8 @@ with_palette view.png
 "$espalier" plot "$work/drought-deep" "$work/drought-shallow" --quantity roots.transpiration,roots.depth \
     --output "$pictures/drought-plot.png"
 "$espalier" plot "$work/leaf-day" --quantity leaves.gain,leaves.transpiration,leaves.temperature --output "$pictures/leaf-day.png"
+"$espalier" plot "$work/drought-stand" --quantity leaves.potential,roots.transpiration,roots.plc,carbon.structure \
+    --output "$pictures/drought-stand.png"
 "$espalier" plot "$work/price-of-shade" "$work/price-of-shade-alone" --quantity carbon.structure,carbon.gain,carbon.shed \
     --output "$pictures/price-of-shade.png"
 "$espalier" render "$work/fruiting-shoot" --colour-by carbon.sugar --output "$pictures/fruiting-shoot.png" --size 600x600 --quiet

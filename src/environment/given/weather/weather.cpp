@@ -126,6 +126,11 @@ void Weather::read_file(const Settings& settings, std::vector<Diagnostic>* warni
     wind_factor_ =
         wind_factor(settings.number_or("wind_height", table.wind_height.value_or(2), Range::between(0.5, 200)));
     repeats_ = settings.flag_or("repeat", false);
+    const double rain = settings.number_or("rain_factor", 1, Range::between(0, 1000));
+    if (settings.has("rain_factor") && !table.has(Q::rain)) {
+        throw UserError(settings.place("rain_factor"), "this file has no rain, of which there could be more or less");
+    }
+    for (double& amount : table.of(Q::rain)) amount *= rain;
     table_ = std::make_shared<WeatherTable>(std::move(table));
 }
 
@@ -395,6 +400,7 @@ humidity       0.6; relative humidity, 0 to 1; with highest and lowest at the da
 wind           1 m/s; 2 m above the ground
 co2            400 umol/mol; carbon dioxide in the air
 rain           0 mm/d; falling evenly, where no file says it
+rain_factor    1; by which the rain of the file is more or less
 radiation      none, MJ m-2 d-1; light of all wavelengths on level ground in a day, without a file
 pressure       101.325 kPa; or height, which gives it
 height         0 m; above the sea

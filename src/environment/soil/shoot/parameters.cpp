@@ -11,7 +11,7 @@ constexpr double seconds_per_day = 86400;
 Vulnerability read_vulnerability(const Settings& table) {
     Vulnerability conduits;
     conduits.head = table.number_or("b", 3, Range::between(0, 100)) * cm_per_megapascal;
-    conduits.power = table.number_or("c", 3, Range::between(0.2, 50));
+    conduits.power = table.number_or("c", 3, Range::between(1, 50));
     return conduits;
 }
 

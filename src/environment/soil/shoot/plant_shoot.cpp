@@ -162,8 +162,13 @@ void PlantShoot::set_substep(double days, double weight) {
 }
 
 void PlantShoot::ask_leaves(std::span<const double> heads, std::span<LossOfHead> losses) {
-    for (std::size_t l = 0; l < heads.size(); ++l) potentials_[l] = heads[l] / cm_per_megapascal;
-    leaves_.lose(plant_, potentials_, of_leaves_);
+    bool is_asked = true;  // at these potentials
+    for (std::size_t l = 0; l < heads.size(); ++l) {
+        const double potential = heads[l] / cm_per_megapascal;
+        is_asked = is_asked && potential == potentials_[l];
+        potentials_[l] = potential;
+    }
+    if (!is_asked) leaves_.lose(plant_, potentials_, of_leaves_);
     for (std::size_t l = 0; l < heads.size(); ++l) {
         losses[l] = {of_leaves_[l].rate, of_leaves_[l].by_potential / cm_per_megapascal};
     }

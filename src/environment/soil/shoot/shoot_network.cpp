@@ -6,13 +6,18 @@
 namespace espalier::environment {
 namespace {
 
-constexpr int most_steps = 200;
+constexpr int most_steps = 400;
 constexpr double tolerance = 1e-12;     ///< of the largest flow
+constexpr double rounding = 1e-15;      ///< of what would flow if the whole head drove it
+constexpr double trickle = 1e-5;        ///< flows below this share of that count as this
 constexpr double longest_change = 2e4;  ///< cm in a step: where nothing conducts, the tangent tells nothing
 
-/// Newton's change of a head, within its reach. Where it turns back, it went too far: the reach is halved.
+/// Newton's change of a head, within its reach. Where it turns back, it went too far: the reach is halved, and grows
+/// slower than that, so that no head swings forever. Over some cm all is as good as linear.
 double clamped(double change, double change_before, double& reach) {
-    reach = change * change_before < 0 ? 0.5 * std::abs(change_before) : std::min(longest_change, 2 * reach);
+    constexpr double linear = 10;
+    const bool turns = change * change_before < 0;
+    reach = turns ? std::max(linear, 0.5 * std::abs(change_before)) : std::min(longest_change, 1.3 * reach);
     return std::clamp(change, -reach, reach);
 }
 
@@ -22,7 +27,7 @@ ShootNetwork::ShootNetwork(std::vector<ShootNode> nodes, double collar_height)
     : nodes_(std::move(nodes)), collar_height_(collar_height) {
     const std::size_t count = nodes_.size();
     for (std::vector<double>* column :
-         {&flow_.head, &flow_.flow, &flow_.stored, &flow_.loss, &change_, &rest_, &reach_}) {
+         {&flow_.head, &flow_.flow, &flow_.stored, &flow_.loss, &change_, &rest_, &reach_, &before_}) {
         column->assign(count, 0);
     }
     rows_.resize(count);
@@ -65,6 +70,7 @@ double ShootNetwork::measure(const CollarView& supply, const ShootLosses& losses
     flow_.intake = supply.conductance * (supply.head - flow_.collar_head - collar_height_);
     collar_rest_ = flow_.intake;
     scale_ = std::abs(flow_.intake);
+    driven_ = supply.conductance * std::abs(flow_.collar_head);
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         Row& row = rows_[i];
         const double capacity = days > 0 ? nodes_[i].capacity / (days * weight) : 0;
@@ -75,6 +81,7 @@ double ShootNetwork::measure(const CollarView& supply, const ShootLosses& losses
         row.rest = row.flow - flow_.stored[i];
         row.diagonal = row.by_own - capacity;
         scale_ = std::max({scale_, std::abs(row.flow), std::abs(flow_.stored[i])});
+        driven_ = std::max(driven_, -row.by_own * std::abs(flow_.head[i]));
     }
     for (std::size_t l = 0; l < leaves_.size(); ++l) {
         flow_.loss[leaves_[l]] = losses_[l].rate;
@@ -91,6 +98,7 @@ double ShootNetwork::measure(const CollarView& supply, const ShootLosses& losses
             rows_[bearer].diagonal -= rows_[i].by_bearer;
         }
     }
+    scale_ = std::max(scale_, trickle * driven_);
     double worst = std::abs(collar_rest_);
     for (const Row& row : rows_) worst = std::max(worst, std::abs(row.rest));
     return worst;
@@ -121,24 +129,46 @@ void ShootNetwork::eliminate(const CollarView& supply) {
     }
 }
 
+double ShootNetwork::allowed() const {
+    return std::max(tolerance * scale_, rounding * driven_);
+}
+
 void ShootNetwork::move() {
-    flow_.collar_head += collar_change_;
-    for (std::size_t i = 0; i < nodes_.size(); ++i) flow_.head[i] += change_[i];
+    before_ = flow_.head;
+    collar_before_ = flow_.collar_head;
+    // Leaves give and do not take: no total head is above all those that water comes from.
+    flow_.collar_head = std::min(flow_.collar_head + collar_change_, highest_ - collar_height_);
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        flow_.head[i] = std::min(flow_.head[i] + change_[i], highest_ - nodes_[i].height);
+    }
+}
+
+double ShootNetwork::highest(const CollarView& supply, const ShootPast& past, double days) const {
+    double highest = supply.head;
+    for (std::size_t i = 0; i < nodes_.size() && days > 0; ++i) {
+        if (nodes_[i].capacity > 0) highest = std::max(highest, past.head[i] + nodes_[i].height);
+    }
+    return highest;
 }
 
 void ShootNetwork::solve(const CollarView& supply, const ShootLosses& losses, const ShootPast& past, double days,
                          double weight) {
     double worst = measure(supply, losses, past, days, weight);
+    highest_ = highest(supply, past, days);
     std::fill(reach_.begin(), reach_.end(), longest_change);
     std::fill(change_.begin(), change_.end(), 0);
     collar_reach_ = longest_change;
     collar_change_ = 0;
-    for (int step = 0; step < most_steps && worst > tolerance * scale_; ++step) {
-        const double before = worst;
+    for (int step = 0; step < most_steps && worst > allowed(); ++step) {
+        const double before = worst, good = 1e-10 * scale_;
         eliminate(supply);
         move();
         worst = measure(supply, losses, past, days, weight);
-        if (worst >= before && before < 1e-10 * scale_) break;  // as good as rounding lets it be
+        if (worst < before || before > good) continue;
+        flow_.head = before_;  // it was as good as it gets
+        flow_.collar_head = collar_before_;
+        worst = measure(supply, losses, past, days, weight);
+        break;
     }
     flow_.residual = scale_ > 0 ? worst / scale_ : 0;
 }

@@ -76,15 +76,20 @@ private:
     double head_below(const ShootNode& node) const;
     void eliminate(const CollarView& supply);
     void move();
+    /// Of all that water comes from, total, cm.
+    double highest(const CollarView& supply, const ShootPast& past, double days) const;
+    /// What a balance may miss.
+    double allowed() const;
 
     std::vector<ShootNode> nodes_;
     double collar_height_;
     std::vector<std::size_t> leaves_;  ///< rows of the leaves
     ShootFlow flow_;
     std::vector<Row> rows_;
-    std::vector<double> change_, reach_, rest_, leaf_heads_;
+    std::vector<double> change_, reach_, rest_, before_, leaf_heads_;
     std::vector<LossOfHead> losses_;
-    double collar_rest_ = 0, collar_change_ = 0, collar_reach_ = 0, scale_ = 0;
+    double collar_rest_ = 0, collar_change_ = 0, collar_reach_ = 0, collar_before_ = 0, scale_ = 0, driven_ = 0,
+           highest_ = 0;
 };
 
 }  // namespace espalier::environment
