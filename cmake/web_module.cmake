@@ -1,6 +1,6 @@
 # What pages load, and the program that compares it with the native one.
 set_source_files_properties(src/geometry/grid_operations.cpp PROPERTIES COMPILE_DEFINITIONS ESPALIER_GRID_LIBRARY="")
-target_sources(espalier_base PRIVATE web/module/toml_library.cpp)
+target_sources(espalier_base PRIVATE web/module/toml_library.cpp web/module/no_programs.cpp)
 set(grows ${GROW_STATIONS} ${GRID_STATIONS})
 
 include(cmake/same_bytes.cmake)
