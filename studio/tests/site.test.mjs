@@ -129,7 +129,7 @@ test("a step that takes too long is stopped, and the text stays", async () => {
   await page.keyboard.press("Control+A");
   await page.keyboard.insertText(long);
   await page.waitForFunction(() => document.querySelector(".status").dataset.state === "growing");
-  const stop = page.getByRole("button", { name: "Stop", exact: true });
+  const stop = page.getByRole("button", { name: "Stop the growth" });
   await stop.waitFor();
   // Steps multiply by six: the worker is deaf before long.
   await page.waitForFunction(() => /[0-9,]{9,}/.test(document.querySelector(".status").textContent));
