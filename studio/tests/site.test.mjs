@@ -124,18 +124,30 @@ test("unsaved work is found again", async () => {
 });
 
 test("a step that takes too long is stopped, and the text stays", async () => {
-  const long = "lsystem: 1\nderivation length: 40\naxiom: A\nA --> A A A A A A F(0.1)\nendlsystem\n";
+  const slow =
+    "lsystem: 1\nStartEach: { i = 0; while (i < 90000) { j = 0; while (j < 90000000) { j = j + 1; } i = i + 1; } }\nderivation length: 40\naxiom: F(1) A\n" +
+    "A --> F(1) A\nendlsystem\n";
   await page.locator(".cm-content").click();
   await page.keyboard.press("Control+A");
-  await page.keyboard.insertText(long);
+  await page.keyboard.insertText(slow);
   await page.waitForFunction(() => document.querySelector(".status").dataset.state === "growing");
-  const stop = page.getByRole("button", { name: "Stop the growth" });
-  await stop.waitFor();
-  // Steps multiply by six: the worker is deaf before long.
-  await page.waitForFunction(() => /[0-9,]{9,}/.test(document.querySelector(".status").textContent));
-  await stop.click();
-  await page.waitForFunction(() => ["done", "stopped"].includes(document.querySelector(".status").dataset.state));
-  assert.match(await text(), /A A A A A A/);
+  await page.getByRole("button", { name: "Stop the growth" }).click();
+  await page.waitForFunction(() => document.querySelector(".status").dataset.state === "done");
+  assert.match(await text(), /90000000/);
+  assert.equal(await page.getByRole("spinbutton", { name: "Steps" }).first().inputValue(), "0");
+});
+
+test("a change is heard in the midst of a step that takes too long", async () => {
+  const steps = page.getByRole("spinbutton", { name: "Steps" }).first();
+  await steps.fill("30");
+  await steps.press("Enter");
+  await page.waitForFunction(() => document.querySelector(".status").dataset.state === "growing");
+  await page.locator(".cm-content").click();
+  await page.keyboard.press("Control+A");
+  await page.keyboard.insertText("lsystem: 1\nderivation length: 6\naxiom: F(1) A\nA --> F(1) A\nendlsystem\n");
+  await grown(page);
+  assert.match(await text(), /derivation length: 6/);
+  assert.match(await page.locator(".status").textContent(), /31 internodes/);
 });
 
 test("one file works from a disk", async () => {
