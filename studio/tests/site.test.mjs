@@ -2,13 +2,16 @@
 //
 // Files are served below a path of their own, as a page of a larger site is.
 import assert from "node:assert/strict";
-import { createServer } from "node:http";
+import { readFileSync } from "node:fs";
 import { readFile } from "node:fs/promises";
+import { createServer } from "node:http";
+import { createRequire } from "node:module";
 import { extname, join, resolve } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { grown, openBrowser, openPage, rests, shot, told } from "./browser.mjs";
 
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const folder = resolve(process.argv[2] ?? "../build/web/site");
 const types = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml", ".png": "image/png" };
 const below = "/some/where/";
@@ -148,6 +151,17 @@ test("a change is heard in the midst of a step that takes too long", async () =>
   await grown(page);
   assert.match(await text(), /derivation length: 6/);
   assert.match(await page.locator(".status").textContent(), /31 internodes/);
+});
+
+test("axe finds nothing critical or serious, and no script comes from a text", async () => {
+  const findings = await page.evaluate(
+    `${axe}; axe.run(document, { resultTypes: ["violations"] }).then(({ violations }) =>
+      violations.filter(({ impact }) => impact === "critical" || impact === "serious").map(({ id }) => id))`,
+  );
+  assert.deepEqual(findings, []);
+  const policy = await page.locator("meta[http-equiv=Content-Security-Policy]").getAttribute("content");
+  assert.match(policy, /script-src 'self' 'wasm-unsafe-eval';/);
+  assert.match(policy, /default-src 'none'/);
 });
 
 test("one file works from a disk", async () => {
