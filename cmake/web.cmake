@@ -25,6 +25,8 @@ endforeach()
 
 set(CMAKE_POSITION_INDEPENDENT_CODE OFF)
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")  # -O3 makes the module larger and no faster
+# Debian's emscripten looks for packages of node where this says.
+set_property(GLOBAL PROPERTY RULE_LAUNCH_LINK "${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodejs")
 # Before all targets: options of the project, because its headers must come first.
 include_directories(BEFORE web/src web/include)
 include_directories(SYSTEM ${web_headers})

@@ -1,7 +1,12 @@
 # What pages load, and the program that compares it with the native one.
 set_source_files_properties(src/geometry/grid_operations.cpp PROPERTIES COMPILE_DEFINITIONS ESPALIER_GRID_LIBRARY="")
-target_sources(espalier_base PRIVATE web/module/toml_library.cpp)
+target_sources(espalier_base PRIVATE web/module/toml_library.cpp web/module/no_programs.cpp)
 set(grows ${GROW_STATIONS} ${GRID_STATIONS})
+
+# What is done once a model or a message must be small, and not fast: functions are called, and not copied to where they are.
+foreach(station IN ITEMS language timeline simulation archive studio)
+  target_compile_options(espalier_${station} PRIVATE "SHELL:-mllvm -inline-threshold=25")
+endforeach()
 
 include(cmake/same_bytes.cmake)
 target_link_libraries(same_bytes PRIVATE ${grows})

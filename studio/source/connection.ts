@@ -30,6 +30,8 @@ export class Connection {
   state: ConnectionState = "connecting";
   /** Why the server refused this page. */
   why = "";
+  /** What is wrong while it is lost. */
+  lost = "";
   private transport: Transport | null = null;
   private next = 1;
   private pause = 0.5;
@@ -47,8 +49,8 @@ export class Connection {
     const events: TransportEvents = {
       opened: () => void this.greet(),
       received: (data) => this.receive(data),
-      closed: (refused) => {
-        if (here()) this.lose(refused);
+      closed: (refused, atOnce) => {
+        if (here()) this.lose(refused, atOnce === true);
       },
     };
     const transport = hasOwnSession() ? new WorkerTransport(events) : new SocketTransport(this.token, events);
@@ -88,7 +90,8 @@ export class Connection {
     }
   }
 
-  private lose(refused: string | null): void {
+  private lose(refused: string | null, atOnce: boolean): void {
+    this.lost = this.transport?.lost ?? "";
     this.transport = null;
     for (const { reject } of this.waiting.values()) reject(new RequestError("The connection to the studio's program was lost."));
     this.waiting.clear();
@@ -99,7 +102,7 @@ export class Connection {
       return;
     }
     this.become("lost");
-    this.timer = window.setTimeout(() => this.connect(), this.pause * 1000);
+    this.timer = window.setTimeout(() => this.connect(), atOnce ? 0 : this.pause * 1000);
     this.pause = Math.min(longestPause, this.pause * 1.6);
   }
 

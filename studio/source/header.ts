@@ -53,7 +53,7 @@ export class Header {
             parts.gallery();
           },
         },
-        h("img", "", { src: "icon.svg", alt: "" }),
+        h("img", "", { src: document.querySelector<HTMLLinkElement>("link[rel=icon]")?.href ?? "", alt: "" }),
         h("span", "", {}, "Espalier"),
       ),
       h("button", "button", { type: "button", onclick: () => parts.gallery() }, icon("gallery"), "Gallery"),

@@ -17,7 +17,7 @@ export class Messages {
         this.banner.replaceChildren(...this.refusal());
       if (state === "lost")
         this.banner.replaceChildren(
-          "There is no connection to the program. Your texts are kept on this page, and it tries again. If the program has ended, start espalier studio again. ",
+          `${studio.connection.lost} `,
           h("button", "button small", { type: "button", onclick: () => studio.connection.connect() }, "Try now"),
         );
     });

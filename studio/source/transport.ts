@@ -4,12 +4,14 @@ export interface TransportEvents {
   /** Requests are heard from now on. */
   opened: () => void;
   received: (data: string | ArrayBuffer) => void;
-  /** `refused`: why this page is not let in; null: it may try again. */
-  closed: (refused: string | null) => void;
+  /** `refused`: why this page is not let in; null: it may try again, `atOnce` or after a while. */
+  closed: (refused: string | null, atOnce?: boolean) => void;
 }
 
 export interface Transport {
   readonly isOpen: boolean;
+  /** What people are told while it is lost. */
+  readonly lost: string;
   send(text: string): void;
   /** A file that a reply named. Throws what went wrong. */
   file(number: number): Promise<Blob>;
@@ -19,6 +21,9 @@ const refusal = 1008; // the server closes a socket so that did not show the rig
 
 /** To a program on this machine. */
 export class SocketTransport implements Transport {
+  readonly lost =
+    "There is no connection to the program. Your texts are kept on this page, and it tries again. " +
+    "If the program has ended, start espalier studio again.";
   private readonly socket = new WebSocket(`ws://${location.host}/socket`);
 
   constructor(

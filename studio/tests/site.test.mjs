@@ -2,13 +2,16 @@
 //
 // Files are served below a path of their own, as a page of a larger site is.
 import assert from "node:assert/strict";
-import { createServer } from "node:http";
+import { readFileSync } from "node:fs";
 import { readFile } from "node:fs/promises";
+import { createServer } from "node:http";
+import { createRequire } from "node:module";
 import { extname, join, resolve } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { grown, openBrowser, openPage, rests, shot, told } from "./browser.mjs";
 
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const folder = resolve(process.argv[2] ?? "../build/web/site");
 const types = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml", ".png": "image/png" };
 const below = "/some/where/";
@@ -124,18 +127,41 @@ test("unsaved work is found again", async () => {
 });
 
 test("a step that takes too long is stopped, and the text stays", async () => {
-  const long = "lsystem: 1\nderivation length: 40\naxiom: A\nA --> A A A A A A F(0.1)\nendlsystem\n";
+  const slow =
+    "lsystem: 1\nStartEach: { i = 0; while (i < 90000) { j = 0; while (j < 90000000) { j = j + 1; } i = i + 1; } }\nderivation length: 40\naxiom: F(1) A\n" +
+    "A --> F(1) A\nendlsystem\n";
   await page.locator(".cm-content").click();
   await page.keyboard.press("Control+A");
-  await page.keyboard.insertText(long);
+  await page.keyboard.insertText(slow);
   await page.waitForFunction(() => document.querySelector(".status").dataset.state === "growing");
-  const stop = page.getByRole("button", { name: "Stop", exact: true });
-  await stop.waitFor();
-  // Steps multiply by six: the worker is deaf before long.
-  await page.waitForFunction(() => /[0-9,]{9,}/.test(document.querySelector(".status").textContent));
-  await stop.click();
-  await page.waitForFunction(() => ["done", "stopped"].includes(document.querySelector(".status").dataset.state));
-  assert.match(await text(), /A A A A A A/);
+  await page.getByRole("button", { name: "Stop the growth" }).click();
+  await page.waitForFunction(() => document.querySelector(".status").dataset.state === "done");
+  assert.match(await text(), /90000000/);
+  assert.equal(await page.getByRole("spinbutton", { name: "Steps" }).first().inputValue(), "0");
+});
+
+test("a change is heard in the midst of a step that takes too long", async () => {
+  const steps = page.getByRole("spinbutton", { name: "Steps" }).first();
+  await steps.fill("30");
+  await steps.press("Enter");
+  await page.waitForFunction(() => document.querySelector(".status").dataset.state === "growing");
+  await page.locator(".cm-content").click();
+  await page.keyboard.press("Control+A");
+  await page.keyboard.insertText("lsystem: 1\nderivation length: 6\naxiom: F(1) A\nA --> F(1) A\nendlsystem\n");
+  await grown(page);
+  assert.match(await text(), /derivation length: 6/);
+  assert.match(await page.locator(".status").textContent(), /31 internodes/);
+});
+
+test("axe finds nothing critical or serious, and no script comes from a text", async () => {
+  const findings = await page.evaluate(
+    `${axe}; axe.run(document, { resultTypes: ["violations"] }).then(({ violations }) =>
+      violations.filter(({ impact }) => impact === "critical" || impact === "serious").map(({ id }) => id))`,
+  );
+  assert.deepEqual(findings, []);
+  const policy = await page.locator("meta[http-equiv=Content-Security-Policy]").getAttribute("content");
+  assert.match(policy, /script-src 'self' 'wasm-unsafe-eval';/);
+  assert.match(policy, /default-src 'none'/);
 });
 
 test("one file works from a disk", async () => {

@@ -53,6 +53,20 @@ TEST_CASE("the command line parser stays with the commands", "[layout]") {
     CHECK(files > 0);
 }
 
+TEST_CASE("what stands for a file in a page has one to stand for", "[layout]") {
+    std::size_t files = 0;
+    for (const char* folder : {"src", "include"}) {
+        for (const fs::path& file : sources_below(fs::path("web") / folder)) {
+            const fs::path own = file.lexically_relative("web");
+            if (folder == std::string("include") && !own.string().starts_with("include/espalier")) continue;
+            INFO(file);
+            CHECK(fs::exists(root / own));
+            ++files;
+        }
+    }
+    CHECK(files > 10);
+}
+
 TEST_CASE("the build description reads on two screens", "[layout]") {
     CHECK(lines_of("CMakeLists.txt").size() <= 120);
 }

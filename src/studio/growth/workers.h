@@ -1,6 +1,8 @@
 // Threads that wait for work, so that a change does not begin with making one.
 #pragma once
 
+#include "studio/growth/piecewise_work.h"
+
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
@@ -13,18 +15,6 @@
 #include <vector>
 
 namespace espalier::studio {
-
-/// Work that is done piece by piece: where a program has no threads, all who work take turns.
-class PiecewiseWork {
-public:
-    virtual ~PiecewiseWork() = default;
-
-    enum class Then { goes_on, waits, ended };
-    /// Does the next piece, and says what comes then.
-    virtual Then next() = 0;
-    /// Until there is another piece.
-    virtual void wait() = 0;
-};
 
 /// Some work, as those see it who have asked for it.
 class RunningWork {

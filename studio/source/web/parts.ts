@@ -17,7 +17,7 @@ function bytesOf(element: Element): Uint8Array<ArrayBuffer> {
 async function packed(name: string): Promise<Uint8Array<ArrayBuffer>> {
   const inside = document.getElementById(`part-${name}`);
   if (inside) return bytesOf(inside);
-  const response = await fetch(new URL(name, new URL(document.documentElement.dataset.parts || ".", document.baseURI)));
+  const response = await fetch(new URL(name, document.baseURI));
   if (!response.ok) throw new Error(`${name} could not be loaded (${response.status}).`);
   return new Uint8Array(await response.arrayBuffer());
 }

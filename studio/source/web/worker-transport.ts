@@ -32,7 +32,7 @@ async function load(): Promise<Parts> {
 
 const state = "/state/studio.json";
 const markOfOpening = `${state}.opening`; // the session opens nothing that ended the one before
-const restForChanges = 2000; // ms, in which a page finds the next worker and says again what was not heard
+const restForChanges = 1500; // ms, in which a page finds the next worker and says again what was not heard
 
 /** The last step that the page was told of. */
 let newest = -1;
@@ -51,6 +51,7 @@ function held(files: KeptFile[], step: number): KeptFile[] {
 }
 
 export class WorkerTransport implements Transport {
+  readonly lost = "A step took too long and was ended. Your texts are kept, and the plant is there again in a moment.";
   private worker: Worker | null = null;
   private ready = false;
   private readonly unheard: string[] = [];
@@ -137,8 +138,8 @@ export class WorkerTransport implements Transport {
   /** The worker that follows is told again what this one has not heard; where it was to stop, it grows no further. */
   private endIfDeaf(name: string): void {
     if (!this.ready || !this.unheard.includes(name)) return;
-    const step = newest;
-    if (this.unheard.includes("stop")) next = { files: (kept) => (step < 0 ? kept : held(kept, step)), rests: 0 };
+    const step = Math.max(0, newest);
+    if (this.unheard.includes("stop")) next = { files: (kept) => held(kept, step), rests: 0 };
     else next = { files: (kept) => kept.filter(([path]) => path !== markOfOpening), rests: restForChanges };
     this.end();
   }
@@ -149,7 +150,7 @@ export class WorkerTransport implements Transport {
     this.worker = null;
     this.ready = false;
     for (const resolve of this.files.values()) resolve(null);
-    this.events.closed(refused);
+    this.events.closed(refused, next !== null);
   }
 }
 

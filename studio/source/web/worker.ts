@@ -128,6 +128,7 @@ function hear(message: ToWorker): void {
   else if (message.kind === "file") sendFile(module, message.number);
   else {
     call("receive", null, message.text);
+    call("tick"); // what has changed is kept before anything grows
     tellKept(module);
     self.postMessage({ kind: "heard" });
     workOn();

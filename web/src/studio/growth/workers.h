@@ -1,24 +1,14 @@
 // Work of a page's worker, which has one thread: all who work take turns between two messages.
 #pragma once
 
+#include "studio/growth/piecewise_work.h"
+
 #include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
 
 namespace espalier::studio {
-
-/// Work that is done piece by piece.
-class PiecewiseWork {
-public:
-    virtual ~PiecewiseWork() = default;
-
-    enum class Then { goes_on, waits, ended };
-    /// Does the next piece, and says what comes then.
-    virtual Then next() = 0;
-    /// On a machine, until there is another piece. Here it is asked again.
-    virtual void wait() = 0;
-};
 
 /// Some work, as those see it who have asked for it.
 class RunningWork {
