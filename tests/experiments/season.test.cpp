@@ -9,18 +9,22 @@ using namespace espalier;
 namespace {
 
 struct Harvest {
-    std::vector<double> thermal, leaves, area;  ///< by day, of the first plant
-    double structure = 0, ear = 0, given = 0, taken = 0, drunk = 0, lowest = 0, gain = 0, big_gain = 0;
+    std::vector<double> thermal, leaves;  ///< by day; of the plant with most leaves
+    double structure = 0, ear = 0;        ///< means of the plants, g of carbon
+    double given = 0, taken = 0, drunk = 0, lowest = 0, gain = 0, big_gain = 0;
     double carbon_balance = 0, water_balance = 0, soil_balance = 0, residual = 0;
 };
 
-double count_of(const World& world, const std::string& symbol, double* mass = nullptr) {
-    const ModuleString& string = world.string(0);
+/// Modules of a plant with this symbol, and the sum of their first parameters.
+double count_of(const World& world, std::size_t plant, const std::string& symbol, double* mass = nullptr) {
+    const ModuleString& string = world.string(plant);
+    const Alphabet& alphabet = world.model(plant).alphabet;
+    const std::vector<std::size_t> begins = parameter_offsets(string, alphabet);
     double count = 0;
     for (std::size_t m = 0; m < string.size(); ++m) {
-        if (world.model(0).alphabet.name(string.letters[m]) != symbol) continue;
+        if (alphabet.name(string.letters[m]) != symbol) continue;
         ++count;
-        if (mass) *mass += string.parameters_of(m)[0];
+        if (mass) *mass += string.parameters[begins[m]];
     }
     return count;
 }
@@ -38,10 +42,10 @@ Harvest grown(const std::vector<std::pair<std::string, std::string>>& overrides,
             return world.environment().statistic(name, plant);
         };
         harvest.thermal.push_back(of("air.thermal_sum"));
-        harvest.leaves.push_back(count_of(world, "L"));
-        harvest.area.push_back(of("leaves.leaf_area"));
+        harvest.leaves.push_back(0);
         harvest.taken = 0;
         for (std::uint32_t plant = 0; plant < 4; ++plant) {
+            harvest.leaves.back() = std::max(harvest.leaves.back(), count_of(world, plant, "L"));
             harvest.given += of("leaves.water", plant);
             harvest.taken += of("roots.total", plant);
             harvest.gain += of("leaves.gain", plant);
@@ -55,8 +59,11 @@ Harvest grown(const std::vector<std::pair<std::string, std::string>>& overrides,
         harvest.drunk = 0.1 * ground * of("water.drunk");
         harvest.soil_balance = std::max(harvest.soil_balance, std::abs(of("water.balance")));
     }
-    harvest.structure = world.environment().statistic("carbon.structure", 0);
-    count_of(world, "E", &harvest.ear);
+    for (std::uint32_t plant = 0; plant < 4; ++plant) {
+        harvest.structure += world.environment().statistic("carbon.structure", plant) / 4;
+        count_of(world, plant, "E", &harvest.ear);
+    }
+    harvest.ear /= 4;
     return harvest;
 }
 
