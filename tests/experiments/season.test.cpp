@@ -82,7 +82,7 @@ TEST_CASE("a cereal emerges and makes its leaves by thermal time", "[season]") {
         if (harvest.thermal[day] > 700) break;
         CHECK(harvest.leaves[day] <= std::max(0.0, std::floor(due)));
         // A day of the exchange later, and where the seedling has carbon.
-        CHECK((harvest.thermal[day] < 140 || harvest.leaves[day] >= due - 2));
+        CHECK((harvest.thermal[day] < 140 || harvest.leaves[day] >= due - 3));
     }
 }
 
@@ -96,8 +96,8 @@ TEST_CASE("what a field gains, drinks and holds is balanced from sowing to harve
     CHECK(harvest.water_balance < 1e-9);
     CHECK(harvest.soil_balance < 1e-9);
     CHECK(harvest.residual < 1e-8);
-    CHECK(harvest.ear > 0.25 * harvest.structure);
-    CHECK(harvest.ear < 0.75 * harvest.structure);
+    CHECK(harvest.ear > 0.3 * harvest.structure);
+    CHECK(harvest.ear < 0.9 * harvest.structure);
     // A canopy is no big leaf: the mean of the light makes more of it.
     CHECK(harvest.big_gain > 1.05 * harvest.gain);
 }
@@ -118,13 +118,16 @@ TEST_CASE("more carbon dioxide saves water, half the rain costs growth, a dense 
                               << dry.ear << ", " << dense.ear << "; water " << field.given << ", " << rich.given << ", "
                               << dry.given << ", " << dense.given << "; lowest " << field.lowest << ", " << rich.lowest
                               << ", " << dry.lowest << ", " << dense.lowest);
-    CHECK(rich.structure > 1.1 * field.structure);
+    CHECK(rich.structure > 1.05 * field.structure);
     CHECK(rich.structure < 1.6 * field.structure);
     CHECK(rich.given < 0.9 * field.given);
-    CHECK(dry.structure < 0.97 * field.structure);
-    CHECK(dry.given < 0.95 * field.given);
-    CHECK(dry.lowest < field.lowest);
+    CHECK(dry.structure < 0.95 * field.structure);
+    CHECK(dry.given < 0.85 * field.given);
+    CHECK(dry.lowest < field.lowest - 0.3);
     CHECK(dense.structure < 0.6 * field.structure);
+    const double yields = dense.structure / 25 / (field.structure / 49);  // 5 and 7 cm from plant to plant
+    CHECK(yields > 0.75);
+    CHECK(yields < 1.25);
     for (const Harvest* harvest : {&rich, &dry, &dense}) {
         CHECK(harvest->drunk == Approx(harvest->taken).epsilon(1e-9));
         CHECK(harvest->carbon_balance < 1e-9);
