@@ -249,6 +249,8 @@ entry environments/fruiting-shoot.toml "A shoot with six fruits" "Allen, Prusink
 grown_by environments/fruiting-shoot.toml models/light/fruiting-shoot.l "A shoot that bears fruit" "ours"
 entry environments/drought-stand.toml "Careful and daring plants in a drought" "Tuzet, Perrier & Leuning 2003; ours" --steps 390 -- --colour-by roots.plc --no-legend
 grown_by environments/drought-stand.toml models/water/thirsty.l "A plant that loses leaves which dry" "ours"
+entry environments/season.toml "A cereal, from sowing to harvest" "ours" --steps 92 -- --azimuth 30 --elevation 8
+grown_by environments/season.toml models/water/cereal.l "A cereal that lives on what its leaves gain" "ours"
 grown_by environments/leaf-day.toml models/water/drinking.l "A plant that drinks" "ours"
 entry environments/root-drought.toml "A root in a drought" "Doussan et al. 1998; Schroeder et al. 2008" --steps 48 -- --field water:slice --no-legend
 entry environments/hydraulic-lift.toml "Water lifted at night" "Richards & Caldwell 1987" --steps 72 -- --field roots:slice --no-legend

@@ -35,7 +35,7 @@ grow storm-on-layers environments/storm-on-layers.toml
 grow root-drought environments/root-drought.toml
 grow nitrate-in-rain environments/nitrate-in-rain.toml
 grow hydraulic-lift environments/hydraulic-lift.toml
-for scene in leaf-day drought-stand price-of-shade price-of-shade-alone fruiting-shoot drought-deep drought-shallow intercrop intercrop-maize intercrop-lupine split-pot; do
+for scene in leaf-day season price-of-shade price-of-shade-alone fruiting-shoot drought-deep drought-shallow intercrop intercrop-maize intercrop-lupine split-pot; do
     grow "$scene" "environments/$scene.toml"
 done
 grow plough-pan environments/plough-pan.toml
@@ -228,8 +228,14 @@ with_palette view.png
 "$espalier" plot "$work/drought-deep" "$work/drought-shallow" --quantity roots.transpiration,roots.depth \
     --output "$pictures/drought-plot.png"
 "$espalier" plot "$work/leaf-day" --quantity leaves.gain,leaves.transpiration,leaves.temperature --output "$pictures/leaf-day.png"
-"$espalier" plot "$work/drought-stand" --quantity leaves.potential,roots.transpiration,roots.plc,carbon.structure \
+grow drought-stand-5 environments/drought-stand.toml --seed 5
+"$espalier" plot "$work/drought-stand-5" --quantity leaves.potential,roots.transpiration,roots.plc,carbon.structure \
     --output "$pictures/drought-stand.png"
+"$espalier" render "$work/drought-stand-5" --step 390 --colour-by roots.plc --output "$pictures/drought-stand-plc.png" --size 500x500 --quiet
+grow season-rich environments/season.toml --set environment.air.co2=800
+grow season-dry environments/season.toml --set environment.air.rain_factor=0.5
+"$espalier" plot "$work/season" "$work/season-rich" "$work/season-dry" --per total \
+    --quantity leaves.leaf_area,carbon.structure,leaves.transpiration,leaves.potential --output "$pictures/season.png"
 "$espalier" plot "$work/price-of-shade" "$work/price-of-shade-alone" --quantity carbon.structure,carbon.gain,carbon.shed \
     --output "$pictures/price-of-shade.png"
 "$espalier" render "$work/fruiting-shoot" --colour-by carbon.sugar --output "$pictures/fruiting-shoot.png" --size 600x600 --quiet

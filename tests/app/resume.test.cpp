@@ -96,6 +96,19 @@ TEST_CASE_METHOD(Resumed, "light in photons is the same in a run that was killed
     }
 }
 
+TEST_CASE_METHOD(Resumed, "water from soil to leaves is the same in a run that was killed and went on with one thread",
+                 "[app][leaf]") {
+    const std::string scene = std::string(ESPALIER_SOURCE_DIR) + "/environments/drought-stand.toml";
+    const std::string store = "environment.roots.leaf.capacitance=2";
+    REQUIRE(run("run " + scene + " --steps 24 --set " + store + " --quiet --threads 2 --output stand").code == 0);
+    const auto has_checkpoint = [&] { return fs::exists(path() / "stand-again" / "checkpoint"); };
+    run_until({"run", scene, "--steps", "24", "--set", store, "--quiet", "--output", "stand-again",
+               "--checkpoint-every", "5"},
+              has_checkpoint, [](pid_t child) { kill(child, SIGKILL); });
+    if (has_checkpoint()) CHECK(run("resume stand-again --quiet --threads 1").code == 0);
+    check_same("stand-again", "stand");
+}
+
 TEST_CASE_METHOD(Resumed, "what cannot go on is refused in words", "[app]") {
     CHECK_THAT(run("resume nowhere").err, Contains("nowhere holds no run"));
     run_until(
