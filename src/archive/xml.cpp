@@ -42,7 +42,7 @@ private:
 
     std::string_view text_;
     std::size_t after_tag_ = 0;
-    XmlElement above_;                         ///< has the root as its child
+    XmlElement above_;                        ///< has the root as its child
     std::vector<XmlElement*> open_{&above_};  ///< elements within elements
 };
 
