@@ -4,7 +4,7 @@ target_sources(espalier_base PRIVATE web/module/toml_library.cpp web/module/no_p
 set(grows ${GROW_STATIONS} ${GRID_STATIONS})
 
 # What is done once a model or a message must be small, and not fast: functions are called, and not copied to where they are.
-foreach(station IN ITEMS language timeline simulation archive studio)
+foreach(station IN ITEMS language timeline simulation archive formats studio)
   target_compile_options(espalier_${station} PRIVATE "SHELL:-mllvm -inline-threshold=25")
 endforeach()
 

@@ -2,14 +2,8 @@
 
 #include "espalier/base/file.h"
 
-#include "archive/meshes/texture_file.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPNGWriter.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cctype>
@@ -25,30 +19,11 @@ std::string plain(std::string name) {
     return name;
 }
 
-vtkSmartPointer<vtkImageData> image_of(const std::filesystem::path& run, const std::string& file, TextureMap map) {
-    if (map == TextureMap::colours) return texture_image(run, file);
-    const ReliefImages relief = relief_images(run, file);
-    return map == TextureMap::normals ? relief.normals : relief.heights;
-}
-
 const char* suffix_of(TextureMap map) {
     return map == TextureMap::colours ? "" : map == TextureMap::normals ? "-normal" : "-height";
 }
 
 }  // namespace
-
-std::string png_of(const std::filesystem::path& run, const std::string& file, TextureMap map) {
-    const auto image = image_of(run, file, map);
-    const int type = image ? image->GetScalarType() : VTK_VOID;
-    if (type != VTK_UNSIGNED_CHAR && type != VTK_UNSIGNED_SHORT) return "";
-    vtkNew<vtkPNGWriter> writer;
-    writer->SetInputData(image);
-    writer->WriteToMemoryOn();
-    writer->Write();
-    vtkUnsignedCharArray* bytes = writer->GetResult();
-    if (writer->GetErrorCode() != 0 || !bytes) return "";
-    return {reinterpret_cast<const char*>(bytes->GetPointer(0)), static_cast<std::size_t>(bytes->GetNumberOfValues())};
-}
 
 std::string material_name(const MeshMaterial& material) {
     const auto [red, green, blue] = material.rgb;

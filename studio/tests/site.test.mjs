@@ -99,6 +99,30 @@ test("a scene with soil grows, with its fields", async () => {
   assert.deepEqual(page.problems, []);
 });
 
+test("a plant is exported as glTF", async () => {
+  await openFromGallery("Honda");
+  await grown(page);
+  await page.getByRole("button", { name: "Share" }).click();
+  await page.getByRole("menuitem", { name: /^Export/ }).click();
+  await page.selectOption("#export-format", "gltf");
+  const [file] = await Promise.all([
+    page.waitForEvent("download"),
+    page.getByRole("button", { name: "Export", exact: true }).click(),
+  ]);
+  assert.match(file.suggestedFilename(), /honda.*\.glb$/);
+  const bytes = await readFile(await file.path());
+  assert.equal(bytes.toString("latin1", 0, 4), "glTF");
+  assert.equal(bytes.readUInt32LE(8), bytes.length);
+  assert.ok(bytes.length > 10_000);
+});
+
+test("a growth is shared as a page of its own", async () => {
+  await page.getByRole("button", { name: "Share" }).click();
+  await page.getByRole("menuitem", { name: /^Share as HTML/ }).click();
+  const [file] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Write the file" }).click()]);
+  assert.match(await readFile(await file.path(), "utf8"), /EspalierView/);
+});
+
 test("unsaved work is found again", async () => {
   await openFromGallery("Honda");
   await grown(page);
