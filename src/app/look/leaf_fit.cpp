@@ -103,10 +103,10 @@ public:
 
     /// From several starts: what limits a row jumps where parameters move, so that there are several minima.
     template <typename Residual>
-    LeastSquares best(const std::vector<const LeafRecord*>& rows, Residual residual) const {
-        LeastSquares best;
+    analysis::LeastSquares best(const std::vector<const LeafRecord*>& rows, Residual residual) const {
+        analysis::LeastSquares best;
         for (const auto& [capacity, light] : starts()) {
-            std::vector<FreeParameter> free;
+            std::vector<analysis::FreeParameter> free;
             for (const LeafParameter* one : parameters_) {
                 LeafKind leaf = start_;
                 const std::string name = one->name;
@@ -114,18 +114,19 @@ public:
                 const double value = std::isfinite(one->of(leaf)) ? one->of(leaf) : 10;
                 free.push_back({std::clamp(value * factor, one->lowest, one->highest), one->lowest, one->highest});
             }
-            const LeastSquares fit = analysis::fit_least_squares(free, [&](const std::vector<double>& values) {
-                const LeafKind leaf = with(values);
-                std::vector<double> all;
-                for (const LeafRecord* row : rows) all.push_back(residual(*row, leaf));
-                return all;
-            });
+            const analysis::LeastSquares fit =
+                analysis::fit_least_squares(free, [&](const std::vector<double>& values) {
+                    const LeafKind leaf = with(values);
+                    std::vector<double> all;
+                    for (const LeafRecord* row : rows) all.push_back(residual(*row, leaf));
+                    return all;
+                });
             if (best.values.empty() || fit.residual < best.residual) best = fit;
         }
         return best;
     }
 
-    void tell(const LeastSquares& fit, LeafFit& found) const {
+    void tell(const analysis::LeastSquares& fit, LeafFit& found) const {
         constexpr double confused = 0.95;
         found.leaf = with(fit.values);
         for (std::size_t i = 0; i < parameters_.size(); ++i) {
@@ -186,7 +187,7 @@ LeafFit fit_leaf(const LeafRecords& records, const LeafFitChoices& choices) {
     if (!of_rates.empty()) {
         const std::vector<const LeafRecord*> rows = rows_where(records, [](const LeafRecord&) { return true; });
         const Search search(of_rates, found.leaf);
-        const LeastSquares fit = search.best(rows, [&](const LeafRecord& row, const LeafKind& leaf) {
+        const analysis::LeastSquares fit = search.best(rows, [&](const LeafRecord& row, const LeafKind& leaf) {
             return modelled_assimilation(row, choices, leaf) - row.assimilation;
         });
         search.tell(fit, found);
@@ -197,7 +198,7 @@ LeafFit fit_leaf(const LeafRecords& records, const LeafFitChoices& choices) {
     const std::vector<const LeafRecord*> open = rows_where(records, tells_stomata);
     if (!of_stomata.empty() && open.size() >= of_stomata.size()) {
         const Search search(of_stomata, found.leaf);
-        const LeastSquares fit = search.best(open, [](const LeafRecord& row, const LeafKind& leaf) {
+        const analysis::LeastSquares fit = search.best(open, [](const LeafRecord& row, const LeafKind& leaf) {
             return modelled_conductance(row, leaf) - row.conductance;
         });
         search.tell(fit, found);

@@ -301,9 +301,9 @@ public:
         last_demand_ = common[1];
         days_in_step_ = common[2];
         for (Transpired& plant : transpired_) {
-            for (double* number : {&plant.in_step, &plant.wanted_in_step, &plant.total, &plant.rate, &plant.lowest,
-                                   &plant.taken, &plant.taken_depth, &plant.last_demand, &plant.given, &plant.stored,
-                                   &plant.grown}) {
+            for (double* number :
+                 {&plant.in_step, &plant.wanted_in_step, &plant.total, &plant.rate, &plant.lowest, &plant.taken,
+                  &plant.taken_depth, &plant.last_demand, &plant.given, &plant.stored, &plant.grown}) {
                 read_doubles(in, {number, 1});
             }
         }

@@ -82,6 +82,13 @@ TEST_CASE("hour 1 of an EPW ends at one o'clock, and its radiation and rain are 
     CHECK_THROWS_WITH(weather.of_step(60, 60, 1), Contains("repeat = true"));
 }
 
+TEST_CASE("a factor makes the rain of a file more or less, and is refused where there is none", "[weather]") {
+    FileOfWeather file("town.epw", epw());
+    CHECK(file.weather("days = 0.0416666666666666667\nrain_factor = 0.5\n").of_step(13, 13, 1).rain == Approx(1));
+    FileOfWeather dry("dry.csv", "time (h),temperature (degC)\n0,10\n24,12\n");
+    CHECK_THAT(dry.refusal("rain_factor = 2\n"), Contains("this file has no rain"));
+}
+
 TEST_CASE("an EPW may have a 29 February, and several records an hour", "[weather]") {
     FileOfWeather leap("leap.epw", epw("100000", {"2024,2,28", "2024,2,29", "1999,3,1"}));
     const Weather year = leap.weather("days = 0.0416666666666666667\n");

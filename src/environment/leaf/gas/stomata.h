@@ -31,7 +31,7 @@ struct Stomata {
     // By the water potential of the leaf (Tuzet, Perrier & Leuning 2003).
     double sensitivity = 0;  ///< sf, MPa-1; 0: stomata do not know it
     double reference = -2;   ///< psi_f, MPa
-    double dry = -5;        ///< psi_dry, MPa: below it `least` falls, too, e-fold in 0.5 MPa
+    double dry = -5;         ///< psi_dry, MPa: below it `least` falls, too, e-fold in 0.5 MPa
 
     /// f, from 1 of a wet leaf to 0: (1 + exp(sf psi_f)) / (1 + exp(sf (psi_f - psi))), psi in MPa.
     double by_potential(double potential) const;

@@ -1,6 +1,8 @@
 // The tables of four instruments: what each row says, in one set of units.
 #include "environment/leaf/measured/leaf_records.h"
 
+#include "espalier/base/error.h"
+
 #include "catch.h"
 #include "environment/leaf/measured/leaf_files.h"
 #include "temporary_folder.h"
