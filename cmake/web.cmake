@@ -39,7 +39,7 @@ add_link_options(-fwasm-exceptions)
 set(left_out "^geometry/grids/(vdb_file|vdb_tree|vdb_bytes|written_grid)[.]"
   "^base/(platform_windows|math_columns_256|math_columns_512)[.]" "^studio/(server/|growth/(recording|recorded_frame)[.])"
   "^(archive|formats|picture)/")
-set(kept "^picture/light/sky_light[.]" "^archive/(recorded_run|joined_pieces|facet_areas|xml)[.]"
+set(kept "^picture/light/sky_light[.]" "^archive/(recorded_run|joined_pieces|facet_areas|frame_rows|xml)[.]"
   "^formats/(export|glb|growth_nodes|map_place|mesh_files|textures|usd_[a-z]+)[.]"
   "^formats/exporters/(csv|gltf|mtg|obj|ply|rsml|stl|usd)[.]"
   "^archive/meshes/(axis_lines|axis_tree|bark|limbs|mesh_pieces|outline_cost|reduction|surface_mesh|tubes)[.]")
