@@ -143,7 +143,7 @@ TEST_CASE("what beams meet first is what all triangles say, and points lie on th
     const ScannedPlants plants(drawn(leaves(300, 2, true, 5) + "[!(0.3)F(2)[+(50)F(1)]]"), 12, std::nullopt);
     TripodScanner scanner;
     scanner.place = {-1, 1.4, 3.5};
-    scanner.step = 3;
+    scanner.step = 2;
     const std::vector<Beam> beams = scanner.beams();
     std::size_t met = 0;
     for (const Beam& beam : beams) {

@@ -276,6 +276,7 @@ private:
 
     void print(const study::FitTask& task, const study::FitResult& result) const {
         if (wants_json()) return fmt::print("{}\n", json_text(json_of(task, result)));
+        if (quiet_) return;
         for (std::size_t k = 0; k < result.parameters.size(); ++k) {
             print(task.unknowns[k], result.parameters[k], result.posterior.has_value());
         }

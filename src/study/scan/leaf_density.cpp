@@ -78,6 +78,7 @@ public:
             voxel->path += std::min(next, end) - at_now;
             if (next >= end) {
                 voxel->met += meets_leaf ? 1 : 0;
+                voxel->path_of_contacts += meets_leaf ? end - at_now : 0;
                 return;
             }
             at_now = std::max(next, at_now + inwards);
@@ -137,7 +138,8 @@ DensityResult leaf_density(const ScannedPlants& plants, std::span<const Beam> be
     for (VoxelDensity& one : voxels.all()) {
         if (one.entered == 0 && one.real == 0) continue;
         result.unseen_area += one.entered == 0 ? one.real : 0;
-        one.estimated = one.path > 0 ? static_cast<double>(one.met) / (projection * one.path) : std::nan("");
+        const double contacts = static_cast<double>(one.met) - one.path_of_contacts / one.path;
+        one.estimated = one.path > 0 ? std::max(0.0, contacts) / (projection * one.path) : std::nan("");
         result.estimated_area += one.entered > 0 ? one.estimated * voxels.volume() : 0;
         result.real_area += one.entered > 0 ? one.real : 0;
         one.real /= voxels.volume();

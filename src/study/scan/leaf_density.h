@@ -13,6 +13,7 @@ struct VoxelDensity {
     glm::dvec3 middle;
     std::size_t entered = 0, met = 0;  ///< beams that came into it, and those that met a leaf in it
     double path = 0;                   ///< m, of all beams within it, up to what they met
+    double path_of_contacts = 0;       ///< m, of those that met a leaf in it
     double estimated = 0;              ///< m2/m3; NaN where no beam came
     double real = 0;                   ///< m2/m3, one side
 };
@@ -26,9 +27,10 @@ struct DensityResult {
     double gap_fraction = 0;
 };
 
-/// Contacts over path lengths: density = contacts / (G * path), whose expectation is right where leaves are small
-/// against voxels (Pimont et al. 2018, eq. 9, without its corrections). G, the mean projection of a unit of leaf area,
-/// is 0.5 for leaves that stand at random. A beam counts by its middle ray.
+/// Contacts over path lengths: density = (contacts - path of contacts / path) / (G path). The second term takes away
+/// what few beams would tell too much, so that one beam that meets a leaf at the wall of a voxel tells nothing (Pimont
+/// et al. 2018, the modified contact frequency, corrected for bias). G, the mean projection of a unit of leaf area, is
+/// 0.5 for leaves that stand at random. A beam counts by its middle ray.
 DensityResult leaf_density(const ScannedPlants& plants, std::span<const Beam> beams, double range, double voxel,
                            double projection);
 
