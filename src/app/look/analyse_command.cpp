@@ -5,11 +5,11 @@
 
 #include "app/command.h"
 #include "app/options.h"
+#include "archive/chosen_frames.h"
 #include "base/folder.h"
 #include "base/number.h"
 #include "base/text.h"
 #include "field_profile.h"
-#include "archive/chosen_frames.h"
 #include "picture/charts/quantity.h"
 #include "picture_options.h"
 

@@ -2,9 +2,9 @@
 #include "espalier/formats/exporter.h"
 
 #include "app/command.h"
+#include "archive/chosen_frames.h"
 #include "base/json_text.h"
 #include "base/text.h"
-#include "archive/chosen_frames.h"
 #include "mesh_file_options.h"
 
 #include <fmt/format.h>

@@ -9,8 +9,8 @@
 #include "base/folder.h"
 #include "base/json_text.h"
 #include "formats/landscape_file.h"
-#include "study/landscape/landscape_scene.h"
 #include "picture_options.h"
+#include "study/landscape/landscape_scene.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

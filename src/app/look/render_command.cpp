@@ -9,12 +9,12 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "app/run_command.h"
+#include "archive/chosen_frames.h"
 #include "axis_surface_options.h"
 #include "base/json_text.h"
 #include "base/number.h"
 #include "base/platform.h"
 #include "base/text.h"
-#include "archive/chosen_frames.h"
 #include "light_options.h"
 #include "picture_options.h"
 

@@ -72,7 +72,8 @@ private:
     void tell(const study::SweepRun& run, int code) {
         ++ended_;
         std::error_code ignored;
-        if (code == 0 && fs::is_empty(study::SweptFolder::log(run), ignored)) fs::remove(study::SweptFolder::log(run), ignored);
+        if (code == 0 && fs::is_empty(study::SweptFolder::log(run), ignored))
+            fs::remove(study::SweptFolder::log(run), ignored);
         if (code != 0 && code != exit_code::interrupted) ++failed_;
         if (code != 0) {
             const std::string reason = study::SweptFolder::complaint(run);
@@ -93,7 +94,8 @@ private:
 }  // namespace
 
 Sweep::Sweep(const RunArguments& base, const std::vector<Variation>& variations, const fs::path& folder)
-    : base_(base), folder_(variations, folder, [&](const Variant& variant) { return words_of(arguments_of(variant)); }) {}
+    : base_(base),
+      folder_(variations, folder, [&](const Variant& variant) { return words_of(arguments_of(variant)); }) {}
 
 RunArguments Sweep::arguments_of(const Variant& variant) const {
     RunArguments arguments = base_;
@@ -151,7 +153,8 @@ Sweep::Outcome Sweep::run(int jobs, bool quiet) const {
     const SignalCounter signals;
     const std::vector<const study::SweepRun*> left = folder_.to_do();
     if (!quiet && left.size() < folder_.runs().size()) {
-        fmt::print(stderr, "{} of {} runs are already complete\n", folder_.runs().size() - left.size(), folder_.runs().size());
+        fmt::print(stderr, "{} of {} runs are already complete\n", folder_.runs().size() - left.size(),
+                   folder_.runs().size());
     }
     if (!left.empty()) tell_warnings(*left.front(), quiet);
     RunPool pool(*this, left.size(), quiet, options_of_children(std::min(left.size(), static_cast<std::size_t>(jobs))));

@@ -99,7 +99,8 @@ struct PackedSizes {
     static std::uint64_t pack(const Plan& plan, bool simple);
     static Sum unpack(std::uint64_t sum) {
         const auto field = [&](int k) { return static_cast<std::size_t>(sum >> k * bits & mask); };
-        return {{field(0), field(1), static_cast<std::size_t>(field(3) & flag_mask)}, field(2), field(3) >> flag_bits == 0};
+        return {
+            {field(0), field(1), static_cast<std::size_t>(field(3) & flag_mask)}, field(2), field(3) >> flag_bits == 0};
     }
     /// Adds up at most `at_once` modules.
     Sum add_up(const LetterId* letters, std::size_t count) const {

@@ -51,8 +51,8 @@ struct TargetType {
 std::shared_ptr<Target> read_target(const std::filesystem::path& file);
 
 /// A table of plants, a row each, as statistics: the mean of each column, and of three measured plants or more its
-/// standard deviation where it has one. Their scale is the standard deviation of the mean, or 5 % of the value of a single
-/// plant.
+/// standard deviation where it has one. Their scale is the standard deviation of the mean, or 5 % of the value of a
+/// single plant.
 class RowStatistics {
 public:
     RowStatistics(const std::vector<std::string>& names, const std::vector<std::vector<double>>& measured);

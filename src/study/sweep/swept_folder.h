@@ -1,4 +1,5 @@
-// The folder of a sweep: one run for every combination of values, each in a folder of its own, and what they ended with.
+// The folder of a sweep: one run for every combination of values, each in a folder of its own, and what they ended
+// with.
 #pragma once
 
 #include "espalier/archive/recorded_run.h"
