@@ -4,8 +4,13 @@ set(geometry_GRIDS grids rays)
 set(environment_GRIDS given leaf light soil space)
 
 # Eigen adds in the order of the source: vectors of another processor would add in another, and fuse.
-set_source_files_properties(src/environment/soil/linear/steady.cpp src/analysis/least_squares.cpp PROPERTIES
+set_source_files_properties(src/environment/soil/linear/steady.cpp src/analysis/least_squares.cpp
+  src/study/fit/abc.cpp PROPERTIES
   COMPILE_DEFINITIONS EIGEN_DONT_VECTORIZE)
+
+# Loops over square roots and quotients become vectors only if nobody reads errno or the exception flags; values stay.
+compile_with("-fno-math-errno;-fno-trapping-math"
+  src/environment/light/shade/ball_shadows.cpp src/environment/light/shade/balls_along.cpp)
 
 # Functions of columns for each width of vectors (src/base/math_lanes.h): compiled alone, each for its processors.
 set(wide_math src/base/math_columns_256.cpp src/base/math_columns_512.cpp)

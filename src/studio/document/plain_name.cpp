@@ -26,7 +26,7 @@ const std::set<std::string>& extensions() {
     static const std::set<std::string> all{".l",   ".h",    ".inc", ".toml", ".v",    ".a",   ".e",    ".s",   ".ray",
                                            ".bez", ".con",  ".cur", ".crv",  ".func", ".fun", ".fset", ".map", ".mat",
                                            ".bg",  ".bark", ".obj", ".ply",  ".stl",  ".csv", ".txt",  ".svg", ".png",
-                                           ".rgb", ".tga",  ".vdb", ".jpg",  ".jpeg", ".tif", ".tiff", ".ies"};
+                                           ".rgb", ".tga",  ".vdb", ".jpg",  ".jpeg", ".tif", ".tiff", ".ies", ".epw"};
     return all;
 }
 
