@@ -17,6 +17,8 @@ ARGUMENTS = {
     "plant": ("oak",),
     "frame": (0,),
     "history": (1, 0),
+    "organs": ([0],),
+    "chosen_steps": ("last",),
     "parameter": ("A.1",),
 }
 
