@@ -265,6 +265,19 @@ void XmlReader::parse(std::string text) {
     Events{*this}.document();
 }
 
+// The text is copied: pages read small files.
+void XmlReader::parse_in_place(std::string_view text) {
+    parse(std::string(text));
+}
+
+std::size_t XmlReader::tag_begin() const {
+    return parser_->event;
+}
+
+std::size_t XmlReader::tag_end() const {
+    return parser_->at;
+}
+
 Place XmlReader::here() const {
     const std::string_view before = std::string_view(parser_->text).substr(0, parser_->event);
     const auto line = std::count(before.begin(), before.end(), '\n');
