@@ -171,6 +171,39 @@ TEST_CASE("parts of a fit are simulated by several processes, and the whole is t
     CHECK_THROWS_AS(fit_posterior(other, part, no_progress), UserError);
 }
 
+TEST_CASE("simulations serve a fit again only where nothing that they depend on has changed", "[fit]") {
+    const TemporaryFolder folder;
+    FitTask task = task_of(all_species[1], folder.path(), 3);
+    AbcFitOptions options;
+    options.simulations = 200;
+    options.generations = 2;
+    const auto sample = [&](const char* name, double accepted) {
+        options.folder = folder.path() / name;
+        options.accepted = accepted;
+        return posterior_table(task, *fit_posterior(task, options, no_progress)->posterior);
+    };
+    // Another share is accepted of the first generation: the second is drawn from elsewhere.
+    const std::string first = sample("used", 0.3), other = sample("used", 0.6);
+    CHECK(first != other);
+    CHECK(other == sample("fresh", 0.6));
+    CHECK(first == sample("used", 0.3));
+    // So it is when other plants were measured.
+    task.targets = {read_target(measured(all_species[1], folder.path(), 4))};
+    CHECK_THROWS_AS(sample("used", 0.3), UserError);  // four worlds in place of three
+    // What a model includes counts, too.
+    write_text(folder.path() / "inner.h", "#define STEP 0.1\n");
+    write_text(folder.path() / "outer.l",
+               "#include \"inner.h\"\n#define ANGLE 30\nlsystem: 1\nderivation length: 2\naxiom: A\n"
+               "A --> F(STEP)[+(ANGLE)F(STEP)]A\nendlsystem\n");
+    write_text(folder.path() / "one.csv", "axis_angle.1\n41\n");
+    const Growth outer(Subject{folder.path() / "outer.l"});
+    task = {outer, {unknown_of("ANGLE=10:80", outer.subject())}, {read_target(folder.path() / "one.csv")}};
+    const std::uint64_t before = task.digest();
+    CHECK(task.digest() == before);
+    write_text(folder.path() / "inner.h", "#define STEP 0.2\n");
+    CHECK(task.digest() != before);
+}
+
 TEST_CASE("a growth that was followed gives its rate back", "[fit]") {
     const TemporaryFolder folder;
     const std::filesystem::path model = folder.path() / "shoot.l";
@@ -185,6 +218,8 @@ TEST_CASE("a growth that was followed gives its rate back", "[fit]") {
     }
     write_text(folder.path() / "course.csv", course);
     FitTask task{growth, {unknown_of("RATE=1:1.6", growth.subject())}, {read_target(folder.path() / "course.csv")}};
+    REQUIRE(task.targets[0]->notes.size() == 1);
+    CHECK_THAT(task.targets[0]->notes[0], Catch::Contains("column 'name' is not used"));
     const FitResult result = fit_least_squares(task, {}, no_progress);
     CHECK(result.parameters[0].value == Approx(1.31).epsilon(1e-5));
     CHECK(result.residual < 1e-5);

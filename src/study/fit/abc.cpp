@@ -2,6 +2,7 @@
 
 #include "espalier/base/error.h"
 #include "espalier/base/math.h"
+#include "espalier/base/read_log.h"
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string_view>
 
 namespace espalier::study {
 namespace {
@@ -229,6 +231,13 @@ double Proposal::weight(std::span<const double> scores) const {
         density += sample_.weights[member] * math::exp(-squares / 2 - log_determinant_);
     }
     return density > 0 ? math::exp(of_priors) / density : 0;
+}
+
+std::uint64_t Proposal::digest() const {
+    const auto bytes = [](const std::vector<double>& numbers) {
+        return std::string_view(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double));
+    };
+    return espalier::digest(bytes(sample_.weights), espalier::digest(bytes(sample_.scores)));
 }
 
 double correlation(const Posterior& sample, std::size_t one, std::size_t other) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -54,6 +55,8 @@ public:
     std::vector<double> draw(double share, std::span<const double> deviates) const;
     /// The priors' density over this one.
     double weight(std::span<const double> scores) const;
+    /// Tells it from others.
+    std::uint64_t digest() const;
 
 private:
     Posterior sample_;

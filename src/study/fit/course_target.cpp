@@ -112,7 +112,13 @@ std::shared_ptr<Target> read_course(const fs::path& file) {
         }
     }
     if (observations.empty()) throw UserError(Place{file.string(), 1, 0}, "no value was measured");
-    return std::make_shared<Course>(file, !by_time, observations);
+    auto course = std::make_shared<Course>(file, !by_time, observations);
+    for (const char* name : {by_time ? "step" : "time", "plant", "name"}) {
+        if (column_named(name) == header.size()) continue;
+        course->notes.push_back(
+            fmt::format("column '{}' is not used: values are those of the mean over the plants", name));
+    }
+    return course;
 }
 
 const Registered<TargetType> course_entry{

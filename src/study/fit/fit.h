@@ -77,5 +77,7 @@ std::string predictive_table(const FitResult& result);
 
 /// Values of the parameters of a member of a posterior.
 std::vector<double> values_of(const FitTask& task, std::span<const double> scores);
+/// The same of all members, a column for each parameter.
+std::vector<std::vector<double>> columns_of(const FitTask& task, const Posterior& posterior);
 
 }  // namespace espalier::study

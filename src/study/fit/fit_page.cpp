@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <numbers>
 
 namespace espalier::study {
 namespace {
@@ -28,7 +28,7 @@ std::vector<double> density(const std::vector<double>& values, const std::vector
             const double away = (x - values[i]) / width;
             sum += weights[i] * std::exp(-away * away / 2);
         }
-        densities.push_back(sum / (width * std::sqrt(2 * 3.14159265358979323846)));
+        densities.push_back(sum / (width * std::sqrt(2 * std::numbers::pi)));
     }
     return densities;
 }
@@ -53,15 +53,6 @@ std::vector<double> places_about(const std::vector<double>& values, const Prior&
         places.push_back(low + static_cast<double>(i) / (points_of_density - 1) * (high - low));
     }
     return places;
-}
-
-std::vector<std::vector<double>> columns_of(const FitTask& task, const Posterior& posterior) {
-    std::vector<std::vector<double>> columns(task.unknowns.size());
-    for (std::size_t row = 0; row < posterior.size(); ++row) {
-        const std::vector<double> values = values_of(task, posterior.scores_of(row));
-        for (std::size_t k = 0; k < values.size(); ++k) columns[k].push_back(values[k]);
-    }
-    return columns;
 }
 
 void add_posterior(ChartPage& page, const FitTask& task, const Posterior& posterior) {

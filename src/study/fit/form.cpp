@@ -14,13 +14,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace espalier::study {
 namespace {
 
 constexpr std::size_t orders = 4;
 constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
-constexpr double degrees = 57.295779513082321;
+constexpr double degrees = 180 / std::numbers::pi;
 
 struct Figure {
     const char *name, *unit;

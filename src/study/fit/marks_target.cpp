@@ -9,14 +9,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
 
 namespace espalier::study {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double degrees_of_a_radian = 57.295779513082321;
+constexpr double degrees_of_a_radian = 180 / std::numbers::pi;
 
 class Marks final : public Target {
 public:

@@ -16,14 +16,6 @@ constexpr double hardly_told_apart = 0.9;
 constexpr double as_wide_as_before = 0.9;  // of the prior's deviation, in normal scores
 constexpr std::size_t predicted = 50;      // members of the posterior that are grown again
 
-std::vector<double> column(const FitTask& task, const Posterior& posterior, std::size_t unknown) {
-    std::vector<double> values;
-    for (std::size_t row = 0; row < posterior.size(); ++row) {
-        values.push_back(values_of(task, posterior.scores_of(row))[unknown]);
-    }
-    return values;
-}
-
 /// The deviation of the normal scores, in which the prior's is 1.
 double deviation_of_scores(const Posterior& posterior, std::size_t unknown) {
     double mean = 0, squares = 0;
@@ -37,8 +29,8 @@ double deviation_of_scores(const Posterior& posterior, std::size_t unknown) {
     return std::sqrt(squares);
 }
 
-FittedParameter summary_of(const FitTask& task, const Posterior& posterior, std::size_t unknown) {
-    const std::vector<double> values = column(task, posterior, unknown);
+FittedParameter summary_of(const FitTask& task, const Posterior& posterior, std::size_t unknown,
+                           const std::vector<double>& values) {
     double mean = 0, squares = 0;
     for (std::size_t row = 0; row < values.size(); ++row) mean += posterior.weights[row] * values[row];
     for (std::size_t row = 0; row < values.size(); ++row) {
@@ -95,6 +87,15 @@ std::vector<double> values_of(const FitTask& task, std::span<const double> score
     return values_of_scores(task.unknowns, scores);
 }
 
+std::vector<std::vector<double>> columns_of(const FitTask& task, const Posterior& posterior) {
+    std::vector<std::vector<double>> columns(task.unknowns.size());
+    for (std::size_t row = 0; row < posterior.size(); ++row) {
+        const std::vector<double> values = values_of(task, posterior.scores_of(row));
+        for (std::size_t k = 0; k < values.size(); ++k) columns[k].push_back(values[k]);
+    }
+    return columns;
+}
+
 std::optional<FitResult> fit_posterior(const FitTask& task, const AbcFitOptions& options, const FitProgress& progress) {
     for (const Unknown& unknown : task.unknowns) {
         if (unknown.prior) continue;
@@ -107,18 +108,19 @@ std::optional<FitResult> fit_posterior(const FitTask& task, const AbcFitOptions&
     FitResult result;
     std::optional<Proposal> proposal;
     for (std::size_t generation = 0; generation < options.generations; ++generation) {
+        const Proposal* const from = proposal ? &*proposal : nullptr;
         const auto tell = [&](std::size_t done, std::size_t all) {
             const std::string number = options.generations > 1 ? fmt::format("generation {}, ", generation + 1) : "";
             progress(number + "simulating", done, all);
         };
-        if (!simulations.make(generation, proposal ? &*proposal : nullptr, options.part, tell)) return std::nullopt;
-        if (simulations.made(generation) < options.simulations) return std::nullopt;  // others make the rest
-        result.posterior =
-            posterior_of(simulations.read(generation, proposal ? &*proposal : nullptr), measured, {options.accepted});
+        if (!simulations.make(generation, from, options.part, tell)) return std::nullopt;
+        if (simulations.made(generation, from) < options.simulations) return std::nullopt;  // others make the rest
+        result.posterior = posterior_of(simulations.read(generation, from), measured, {options.accepted});
         proposal.emplace(*result.posterior);
     }
+    const std::vector<std::vector<double>> values = columns_of(task, *result.posterior);
     for (std::size_t k = 0; k < task.unknowns.size(); ++k) {
-        result.parameters.push_back(summary_of(task, *result.posterior, k));
+        result.parameters.push_back(summary_of(task, *result.posterior, k, values[k]));
         for (std::size_t other = 0; other < k; ++other) {
             const double together = correlation(*result.posterior, k, other);
             if (std::abs(together) > hardly_told_apart) result.inseparable.push_back({other, k, together});

@@ -107,13 +107,18 @@ std::vector<double> FitTask::simulated(std::span<const double> values, std::uint
 
 std::uint64_t FitTask::digest() const {
     const Subject& subject = growth.subject();
-    std::string text = read_text(subject.file);
-    for (const auto& [key, value] : subject.values) text += fmt::format("\n{}={}", key, value);
+    std::vector<double> start;
+    for (const Unknown& unknown : unknowns) start.push_back(unknown.start);
+    const ReadLog inputs;  // also what models include, and what a scene names
+    static_cast<void>(growth.scene(named(start)));
+    std::string text;
+    for (const auto& [path, file] : inputs.files()) text += fmt::format("{} {:016x}\n", path.string(), file.digest);
+    for (const auto& [key, value] : subject.values) text += fmt::format("{}={}\n", key, value);
     text +=
-        fmt::format("\nsteps {} seed {} plant {}", subject.steps.value_or(-1), subject.seed.value_or(0), subject.plant);
-    for (const Unknown& unknown : unknowns) text += fmt::format("\n{}: {}", unknown.name, unknown.prior->text());
-    text += fmt::format("\nworlds {}", worlds());
-    for (const Statistic& statistic : statistics()) text += "\n" + statistic.name;
+        fmt::format("steps {} seed {} plant {}\n", subject.steps.value_or(-1), subject.seed.value_or(0), subject.plant);
+    for (const Unknown& unknown : unknowns) text += fmt::format("{}: {}\n", unknown.name, unknown.prior->text());
+    text += fmt::format("worlds {}\n", worlds());
+    for (const Statistic& statistic : statistics()) text += statistic.name + "\n";
     return espalier::digest(text);
 }
 
@@ -128,8 +133,10 @@ Simulations::Simulations(const FitTask& task, fs::path folder, std::size_t per_g
                                 folder_.string()));
 }
 
-fs::path Simulations::file(std::size_t generation, std::size_t chunk) const {
-    return folder_ / fmt::format("{}-{:05}.csv", generation, chunk);
+// Later generations depend on what was measured, and on how much was accepted.
+fs::path Simulations::file(std::size_t generation, const Proposal* proposal, std::size_t chunk) const {
+    const std::string of = proposal ? fmt::format("{:016x}-", proposal->digest()) : "";
+    return folder_ / fmt::format("{}-{}{:05}.csv", generation, of, chunk);
 }
 
 std::size_t Simulations::chunks() const {
@@ -163,8 +170,8 @@ bool Simulations::make(std::size_t generation, const Proposal* proposal, const P
                        const Progress& progress) const {
     for (std::size_t chunk = part.number; chunk < chunks(); chunk += part.of) {
         try {
-            if (!is_readable(file(generation, chunk))) {
-                write_text(file(generation, chunk), rows(generation, proposal, chunk));
+            if (!is_readable(file(generation, proposal, chunk))) {
+                write_text(file(generation, proposal, chunk), rows(generation, proposal, chunk));
             }
         } catch (const Stopped&) {
             return false;
@@ -174,10 +181,10 @@ bool Simulations::make(std::size_t generation, const Proposal* proposal, const P
     return true;
 }
 
-std::size_t Simulations::made(std::size_t generation) const {
+std::size_t Simulations::made(std::size_t generation, const Proposal* proposal) const {
     std::size_t made = 0;
     for (std::size_t chunk = 0; chunk < chunks(); ++chunk) {
-        if (!is_readable(file(generation, chunk))) continue;
+        if (!is_readable(file(generation, proposal, chunk))) continue;
         made += std::min(per_file, per_generation_ - chunk * per_file);
     }
     return made;
@@ -186,7 +193,7 @@ std::size_t Simulations::made(std::size_t generation) const {
 SimulationTable Simulations::read(std::size_t generation, const Proposal* proposal) const {
     SimulationTable table{task_.unknowns.size(), task_.statistics().size(), {}, {}, {}};
     for (std::size_t chunk = 0; chunk < chunks(); ++chunk) {
-        const CsvRows rows(file(generation, chunk));
+        const CsvRows rows(file(generation, proposal, chunk));
         for (std::size_t i = 1; i < rows.rows().size(); ++i) {
             const CsvRow& row = rows.rows()[i];
             for (std::size_t k = 0; k < table.unknowns; ++k) {

@@ -50,11 +50,11 @@ public:
     /// it was told to stop; what is whole then stays.
     bool make(std::size_t generation, const Proposal* proposal, const Part& part, const Progress& progress) const;
     /// How many of a generation are there.
-    std::size_t made(std::size_t generation) const;
+    std::size_t made(std::size_t generation, const Proposal* proposal) const;
     SimulationTable read(std::size_t generation, const Proposal* proposal) const;
 
 private:
-    std::filesystem::path file(std::size_t generation, std::size_t chunk) const;
+    std::filesystem::path file(std::size_t generation, const Proposal* proposal, std::size_t chunk) const;
     std::size_t chunks() const;
     std::string rows(std::size_t generation, const Proposal* proposal, std::size_t chunk) const;
 

@@ -3,24 +3,18 @@
 #include "espalier/base/error.h"
 #include "espalier/language/model_settings.h"
 
+#include "base/csv_file.h"
 #include "base/number.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace espalier::study {
 namespace {
 
 constexpr const char* forms = "NAME, NAME=START, NAME=LOW:HIGH, NAME=log:LOW:HIGH or NAME=normal:MEAN:DEVIATION";
-
-std::vector<std::string> parts_of(const std::string& text) {
-    std::vector<std::string> parts(1);
-    for (const char c : text) c == ':' ? parts.emplace_back() : parts.back().append(1, c), void();
-    return parts;
-}
 
 /// What the model says of a #define: its value and the range in its comment.
 void take_setting(Unknown& unknown, const Subject& subject, const std::string& start) {
@@ -44,7 +38,7 @@ void require_range(double low, double high) {
 }
 
 void take_prior(Unknown& unknown, const std::string& text) {
-    const std::vector<std::string> words = parts_of(text);
+    const std::vector<std::string> words = csv_cells(text, ':');
     const bool has_kind = words.size() == 3;
     const auto low = finite_number(words[has_kind ? 1 : 0]), high = finite_number(words.back());
     if (!low || !high) throw UserError(fmt::format("expected {}", forms));
