@@ -6,8 +6,8 @@
 #include "app/options.h"
 #include "base/json_text.h"
 #include "environment/leaf/gas/settings.h"
-#include "leaf_fit.h"
 #include "picture_options.h"
+#include "study/fit/leaf_fit.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -86,7 +86,7 @@ Examples:
                                   : std::vector<std::string>{"v", "jmax", "rd", "g1"};
         }
         const LeafRecords records = read_leaf_records(table_);
-        const LeafFit fit = fit_leaf(records, choices_);
+        const study::LeafFit fit = study::fit_leaf(records, choices_);
         if (!output_.empty()) {
             const ChartPage page = page_of(records, fit);
             write_picture(page, picture_.size(fitting_size(page)), output_);
@@ -96,12 +96,14 @@ Examples:
     }
 
 private:
-    ChartPage page_of(const LeafRecords& records, const LeafFit& fit) const {
+    ChartPage page_of(const LeafRecords& records, const study::LeafFit& fit) const {
         ChartPage page;
         page.title = fmt::format("{}, {}", table_.filename().string(), records.instrument);
         page.keys = {{"measured", 0, 0}, {"fitted", 1, 0}};
         page.dark = picture_.dark();
-        const auto modelled = [&](const LeafRecord& row) { return modelled_assimilation(row, choices_, fit.leaf); };
+        const auto modelled = [&](const LeafRecord& row) {
+            return study::modelled_assimilation(row, choices_, fit.leaf);
+        };
         const auto measured = [](const LeafRecord& row) { return row.assimilation; };
         const std::string rate = "assimilation (umol m-2 s-1)";
         for (const auto& [along, title] : {std::pair{&LeafRecord::internal, "Ci (umol/mol)"},
@@ -110,7 +112,7 @@ private:
                 {title, rate, {dots(0, records, along, measured), dots(1, records, along, modelled)}});
         }
         if (fit.rows_of_conductance > 0) {
-            const auto opened = [&](const LeafRecord& row) { return modelled_conductance(row, fit.leaf); };
+            const auto opened = [&](const LeafRecord& row) { return study::modelled_conductance(row, fit.leaf); };
             const auto open = [](const LeafRecord& row) { return row.conductance; };
             page.charts.push_back({rate,
                                    "conductance (mol m-2 s-1)",
@@ -120,24 +122,24 @@ private:
         return page;
     }
 
-    void print_json(const LeafRecords& records, const LeafFit& fit) const {
+    void print_json(const LeafRecords& records, const study::LeafFit& fit) const {
         nlohmann::ordered_json json = {{"instrument", records.instrument},
                                        {"rows", records.rows.size()},
                                        {"left_out", records.left_out},
                                        {"limits", fit.limits},
                                        {"residual_assimilation", fit.residual_of_assimilation},
                                        {"residual_conductance", fit.residual_of_conductance}};
-        for (const FittedNumber& one : fit.numbers) {
+        for (const study::FittedNumber& one : fit.numbers) {
             json["parameters"][one.name] = {{"value", one.value}, {"error", one.error}};
         }
         json["confused"] = nlohmann::ordered_json::array();
-        for (const ConfusedPair& pair : fit.pairs) {
+        for (const study::ConfusedPair& pair : fit.pairs) {
             json["confused"].push_back({{"pair", {pair.first, pair.second}}, {"correlation", pair.correlation}});
         }
         fmt::print("{}\n", json_text(json));
     }
 
-    void print(const LeafRecords& records, const LeafFit& fit) const {
+    void print(const LeafRecords& records, const study::LeafFit& fit) const {
         fmt::print("{}, {} rows", records.instrument, records.rows.size());
         if (records.left_out > 0) fmt::print("; {} left out: {}", records.left_out, records.why);
         fmt::print("\n");
@@ -154,27 +156,27 @@ private:
         }
         print_doubts(fit);
         fmt::print("\n");
-        for (const FittedNumber& one : fit.numbers) {
+        for (const study::FittedNumber& one : fit.numbers) {
             const std::string error = is_decided(one) ? fmt::format("+- {:.2g}", one.error) : "not decided";
             fmt::print("{:<4} = {:<10.5g} # {}{}{}\n", one.name, one.value, error, one.unit.empty() ? "" : " ",
                        one.unit);
         }
     }
 
-    static bool is_decided(const FittedNumber& one) { return one.error < 10 * std::abs(one.value); }
+    static bool is_decided(const study::FittedNumber& one) { return one.error < 10 * std::abs(one.value); }
 
-    void print_doubts(const LeafFit& fit) const {
-        for (const FittedNumber& one : fit.numbers) {
-            const bool is_in_pair = std::any_of(fit.pairs.begin(), fit.pairs.end(), [&](const ConfusedPair& pair) {
-                return pair.first == one.name || pair.second == one.name;
-            });
+    void print_doubts(const study::LeafFit& fit) const {
+        for (const study::FittedNumber& one : fit.numbers) {
+            const bool is_in_pair = std::any_of(
+                fit.pairs.begin(), fit.pairs.end(),
+                [&](const study::ConfusedPair& pair) { return pair.first == one.name || pair.second == one.name; });
             if (is_decided(one) || is_in_pair) continue;
             fmt::print("{}: the table does not decide it{}\n", one.name,
                        one.name == "jmax" && !fit.limits.contains("light")
                            ? ", as no row is limited by light: measure at higher Ci, or leave it out"
                            : "");
         }
-        for (const ConfusedPair& pair : fit.pairs) {
+        for (const study::ConfusedPair& pair : fit.pairs) {
             fmt::print(
                 "{0} and {1} cannot be told apart (correlation {2:.3f}): more of {0} with {3} of {1} fits as well; "
                 "give "
@@ -192,7 +194,7 @@ private:
     PictureOptions picture_;
     fs::path table_, output_;
     std::vector<std::string> names_, sets_;
-    LeafFitChoices choices_;
+    study::LeafFitChoices choices_;
 };
 
 const RegisteredCommand<FitLeaf> fit_leaf_entry{46};

@@ -41,6 +41,13 @@ PictureSize picture_size(const std::string& option, const std::string& text) {
                                        : fmt::format("{} {}: expected COLUMNSxROWS, such as 4x2", option, text));
 }
 
+std::optional<std::array<double, 2>> low_and_high(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    if (colon == std::string::npos) return std::nullopt;
+    const auto low = finite_number(text.substr(0, colon)), high = finite_number(text.substr(colon + 1));
+    return low && high && *low < *high ? std::optional(std::array{*low, *high}) : std::nullopt;
+}
+
 PictureBackground picture_background(const std::string& text) {
     if (text == "light") return light_background;
     if (text == "dark") return dark_background;

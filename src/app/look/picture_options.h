@@ -6,6 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <array>
+#include <optional>
 #include <string>
 
 namespace espalier::app {
@@ -40,6 +42,8 @@ private:
 
 /// "1200x800", of an option.
 PictureSize picture_size(const std::string& option, const std::string& text);
+/// "LOW:HIGH", two numbers of which the first is less; none for another text.
+std::optional<std::array<double, 2>> low_and_high(const std::string& text);
 /// "light", "dark", "transparent" or "#rrggbb".
 PictureBackground picture_background(const std::string& text);
 /// "water", "water:volume", "water:slice", "water:slice=z0.5", "water:iso", "water:iso=0.3".

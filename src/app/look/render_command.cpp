@@ -12,7 +12,6 @@
 #include "archive/chosen_frames.h"
 #include "axis_surface_options.h"
 #include "base/json_text.h"
-#include "base/number.h"
 #include "base/platform.h"
 #include "base/text.h"
 #include "light_options.h"
@@ -303,11 +302,7 @@ private:
 
     std::optional<std::array<double, 2>> range() const {
         if (range_.empty()) return std::nullopt;
-        const std::size_t colon = range_.find(':');
-        if (colon != std::string::npos) {
-            const auto low = finite_number(range_.substr(0, colon)), high = finite_number(range_.substr(colon + 1));
-            if (low && high && *low < *high) return std::array{*low, *high};
-        }
+        if (const auto range = low_and_high(range_)) return range;
         throw UserError(fmt::format("--range {}: expected LOW:HIGH, such as 0:0.5", range_));
     }
 

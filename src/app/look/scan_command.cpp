@@ -21,6 +21,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 namespace espalier::app {
@@ -174,10 +175,7 @@ private:
     }
 
     static std::array<double, 2> range_of(const std::string& option, const std::string& text) {
-        const std::size_t colon = text.find(':');
-        const auto low = finite_number(text.substr(0, colon));
-        const auto high = colon == text.npos ? std::nullopt : finite_number(text.substr(colon + 1));
-        if (low && high && *low < *high) return {*low, *high};
+        if (const auto range = low_and_high(text)) return *range;
         throw UserError(fmt::format("{} {}: expected LOW:HIGH, degrees", option, text));
     }
 
@@ -213,7 +211,7 @@ private:
         const double height = std::max(flying_.from.y, flying_.to.y);
         if (std::min(flying_.from.y, flying_.to.y) <= 0)
             throw UserError("--fly: a scanner that flies is above height 0");
-        const double width = 2 * height * std::tan(flying_.half_angle * 3.14159265358979323846 / 180);
+        const double width = 2 * height * std::tan(flying_.half_angle * std::numbers::pi / 180);
         require_few(flying_.density * width * std::max(1.0, glm::distance(flying_.from, flying_.to)));
         return flying_.beams();
     }

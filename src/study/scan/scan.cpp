@@ -2,6 +2,8 @@
 
 #include "espalier/base/random.h"
 
+#include "geometry/vectors.h"
+
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <tbb/parallel_for.h>
@@ -9,30 +11,19 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 namespace espalier::study {
 namespace {
 
 constexpr std::size_t beams_together = 4096, turns_together = 64;
 
-/// Two directions across one.
-struct Across {
-    glm::dvec3 x, y;
-    explicit Across(const glm::dvec3& direction) {
-        const glm::dvec3 aside = std::abs(direction.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-        x = glm::normalize(glm::cross(direction, aside));
-        y = glm::cross(direction, x);
-    }
-};
-
 /// Rays over the cone, evenly by a sunflower's spiral (Vogel 1979); the first is its middle.
 glm::dvec3 ray_of_cone(const glm::dvec3& direction, double half_angle, int ray, int rays) {
     if (ray == 0 || half_angle == 0) return direction;
     constexpr double golden = 2.39996322972865332;
     const double away = std::tan(half_angle) * std::sqrt((ray + 0.5) / rays), turn = golden * ray;
-    const Across across(direction);
-    return glm::normalize(direction + away * (std::cos(turn) * across.x + std::sin(turn) * across.y));
+    const glm::dvec3 x = geometry::any_across(direction), y = glm::cross(direction, x);
+    return glm::normalize(direction + away * (std::cos(turn) * x + std::sin(turn) * y));
 }
 
 /// Rays of a beam that met something at about one distance.
@@ -96,9 +87,9 @@ private:
     glm::dvec3 believed_direction(const glm::dvec3& direction, RandomSamples& samples) const {
         if (!(options_.angle_noise > 0)) return direction;
         const double noise = glm::radians(options_.angle_noise);
-        const Across across(direction);
+        const glm::dvec3 across = geometry::any_across(direction), other = glm::cross(direction, across);
         const double x = noise * samples.normal(), y = noise * samples.normal();
-        return glm::normalize(direction + x * across.x + y * across.y);
+        return glm::normalize(direction + x * across + y * other);
     }
 
     ScanPoint point_of(const Return& met) const {

@@ -1,6 +1,7 @@
 #include "study/scan/scanned_plants.h"
 
 #include "archive/meshes/surface_mesh.h"
+#include "geometry/vectors.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -27,8 +28,7 @@ ScannedOrgan organ_of(std::size_t number, const FrameAttributes& of, std::size_t
 
 /// Corners of a ring about an axis.
 std::vector<glm::vec3> ring(const glm::vec3& middle, const glm::vec3& axis, float radius, int sides) {
-    const glm::vec3 aside = std::abs(axis.y) < 0.9F ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
-    const glm::vec3 x = glm::normalize(glm::cross(axis, aside)), y = glm::cross(axis, x);
+    const glm::vec3 x(geometry::any_across(axis)), y = glm::cross(axis, x);
     std::vector<glm::vec3> corners;
     for (int i = 0; i < sides; ++i) {
         const float turn = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(sides);

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier::app {
+namespace espalier::study {
 
 /// What a file does not tell, and where the search begins.
 struct LeafFitChoices {
@@ -54,4 +54,4 @@ double modelled_assimilation(const environment::leaf::LeafRecord& row, const Lea
 /// gs in them, with the row's own A, mol m-2 s-1; NaN where the row does not tell the air at the surface.
 double modelled_conductance(const environment::leaf::LeafRecord& row, const environment::leaf::LeafKind& leaf);
 
-}  // namespace espalier::app
+}  // namespace espalier::study

@@ -1,4 +1,4 @@
-#include "leaf_fit.h"
+#include "study/fit/leaf_fit.h"
 
 #include "espalier/base/error.h"
 
@@ -12,7 +12,7 @@
 #include <array>
 #include <cmath>
 
-namespace espalier::app {
+namespace espalier::study {
 namespace {
 
 using namespace environment::leaf;
@@ -208,4 +208,4 @@ LeafFit fit_leaf(const LeafRecords& records, const LeafFitChoices& choices) {
     return found;
 }
 
-}  // namespace espalier::app
+}  // namespace espalier::study
