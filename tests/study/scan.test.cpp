@@ -243,3 +243,12 @@ TEST_CASE("files of points hold what was scanned", "[scan]") {
     CHECK_THROWS_AS(require_point_file("scan.csv", {{"colour"}}), UserError);
     CHECK_THROWS_AS(require_point_file("scan.ply", {{"identity"}}), UserError);
 }
+
+TEST_CASE("a level leaf on the wall of a voxel is in one, and its area comes back", "[scan]") {
+    const ScannedPlants plants(drawn("!(0.2)F(1)[@M(0,1,0)&(90){.f(1).+(90)f(1).+(90)f(1).}]"), 8, std::nullopt);
+    const FlyingScanner scanner{{-2, 10, 0}, {2, 10, 0}, 400, 15};
+    const DensityResult found = leaf_density(plants, scanner.beams(), 100, 0.5, 1);
+    CHECK(found.real_area == Approx(1).epsilon(0.01));
+    CHECK(found.unseen_area == 0);
+    CHECK(found.estimated_area == Approx(1).epsilon(0.1));  // by beams that come nearly from above
+}

@@ -14,10 +14,8 @@ class Voxels {
 public:
     Voxels(const ScannedPlants& plants, double edge) : edge_(edge) {
         lower_ = glm::floor(glm::dvec3(plants.lowest()) / edge) * edge;
-        const glm::dvec3 extent = glm::ceil((glm::dvec3(plants.highest()) - lower_) / edge);
-        for (int axis = 0; axis < 3; ++axis) {
-            size_[static_cast<std::size_t>(axis)] = std::max(1L, static_cast<long>(extent[axis]));
-        }
+        const std::array<long, 3> last = place_of(plants.highest());  // what lies on a wall belongs to the voxel behind
+        for (std::size_t axis = 0; axis < 3; ++axis) size_[axis] = last[axis] + 1;
         voxels_.resize(static_cast<std::size_t>(size_[0] * size_[1] * size_[2]));
         for (long z = 0; z < size_[2]; ++z) {
             for (long y = 0; y < size_[1]; ++y) {
@@ -61,6 +59,7 @@ public:
     /// Adds the path of a beam up to `end`, and what it met there (Amanatides & Woo 1987).
     void pass(const Beam& beam, double begin, double end, bool meets_leaf) {
         constexpr double inwards = 1e-9;
+        const double rounding = 1e-5 * edge_ + 1e-6 * end;  // distances have 32 bits: a leaf on a wall is met before it
         std::array<long, 3> place = place_of(beam.origin + beam.direction * (begin + inwards));
         for (double at_now = begin; at_now < end;) {
             int axis = 0;
@@ -76,7 +75,7 @@ public:
             if (!voxel) return;
             ++voxel->entered;
             voxel->path += std::min(next, end) - at_now;
-            if (next >= end) {
+            if (next >= end - rounding) {
                 voxel->met += meets_leaf ? 1 : 0;
                 voxel->path_of_contacts += meets_leaf ? end - at_now : 0;
                 return;
