@@ -40,6 +40,29 @@ void rain_on_large_block(benchmark::State& state) {
 BENCHMARK(rain_on_small_block)->UseRealTime();
 BENCHMARK(rain_on_large_block)->UseRealTime();
 
+/// Loam with a ball of clay over a closed floor, until it is full to the surface and a pond stands: per substep.
+void filling(benchmark::State& state, double rain) {
+    std::size_t substeps = 0;
+    for (auto _ : state) {
+        test::SoilBlock block(fmt::format(
+            "domain = {{ lower = [0, -0.32, 0], upper = [0.32, 0, 0.32] }}\nvoxel = 0.01\nsoil = \"loam\"\n"
+            "initial = {{ head = -500 }}\nregions = [{{ shape = \"sphere\", center = [0.2, -0.15, 0.2], radius = 0.08, "
+            "soil = \"clay\" }}]\nboundaries = {{ top = {{ rain = {}, ponding = 20 }}, bottom = \"no-flux\" }}",
+            rain));
+        block.advance(0.3);
+        substeps += block.soil.substeps();
+    }
+    state.SetItemsProcessed(static_cast<std::int64_t>(substeps) * 32 * 32 * 32);
+}
+void filling_with_rain(benchmark::State& state) {
+    filling(state, 500);
+}
+void wetting_with_rain(benchmark::State& state) {
+    filling(state, 10);
+}
+BENCHMARK(filling_with_rain)->UseRealTime();
+BENCHMARK(wetting_with_rain)->UseRealTime();
+
 /// The same rain on a column of the tests' reference, with as many cells as the small block is high.
 void rain_on_plain_column(benchmark::State& state) {
     for (auto _ : state) {
@@ -129,6 +152,13 @@ const Row linear{"the same with eight times the voxels, per voxel",
                  Measure::time_per_item,
                  Goal::at_most,
                  1.5};
+
+const Row full{"a substep of 32^3 voxels of loam that fills to a pond, against one of light rain",
+               "filling_with_rain/real_time",
+               "wetting_with_rain/real_time",
+               Measure::time_per_item,
+               Goal::at_most,
+               3};
 
 const Row tree{"water in a tree of 100,000 pieces of root, per piece, ns",
                "tree_of_roots/real_time",

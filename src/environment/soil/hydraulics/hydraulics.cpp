@@ -160,10 +160,10 @@ double SoilHydraulics::suction_at(double wanted, double full, double Node::*valu
     for (int i = 0; i < 60; ++i) {  // Newton between bounds
         const Cubic at = cubic(t, width, a.*value, b.*value, a.*slope, b.*slope);
         (at.value > wanted ? low : high) = t;
-        double next = at.slope < 0 ? t - (at.value - wanted) / (at.slope * width) : 2;
-        if (!(next > low && next < high)) next = 0.5 * (low + high);
-        if (std::abs(next - t) <= 1e-14) break;
-        t = next;
+        const double step = at.slope < 0 ? (wanted - at.value) / (at.slope * width) : 2;
+        const double next = t + step;
+        if (std::abs(step) <= 1e-8) return a.suction + next * width;  // the next step would be its square
+        t = next > low && next < high ? next : 0.5 * (low + high);
     }
     return a.suction + t * width;
 }

@@ -33,29 +33,32 @@ std::size_t kind_in_field(const SoilParameters& soil, const FieldGrid& map, cons
 
 }  // namespace
 
+void FaceCouplings::resize(std::size_t cells) {
+    for (WaterBrick* brick : {&by_own, &by_next}) brick->assign(cells, 0.0);
+}
+
 void FaceFluxes::resize(std::size_t cells) {
-    for (WaterBrick* brick : {&flux, &by_own, &by_next}) brick->assign(cells, 0.0);
+    FaceCouplings::resize(cells);
+    flux.assign(cells, 0.0);
 }
 
 SoilLayout::SoilLayout(const WaterGrid& grid, const SoilParameters& parameters,
                        const std::vector<std::uint8_t>& free_voxels, const Fields& fields)
-    : grid_(grid),
+    : rows_(grid, parameters.periodic),
       parameters_(parameters),
       kinds_(parameters.kinds),
       faces_(grid, free_voxels),
       kind_of_(grid.cells(), static_cast<std::uint8_t>(parameters.kind)),
-      edge_(100 * grid.voxel()),
-      joined_x_(parameters.periodic && grid.size().x > 1),
-      joined_z_(parameters.periodic && grid.size().z > 1) {
+      edge_(100 * grid.voxel()) {
     place_kinds(fields);
 }
 
 void SoilLayout::place_kinds(const Fields& fields) {
     const FieldGrid* const map =
         parameters_.map_field.empty() ? nullptr : fields.need(parameters_.map_field).grid.get();
-    const Box box{grid_.lower(), grid_.upper()};
-    grid_.for_each_cell([&](std::size_t cell) {
-        const glm::dvec3 point = grid_.centre(grid_.voxel_of(cell));
+    const Box box{grid().lower(), grid().upper()};
+    grid().for_each_cell([&](std::size_t cell) {
+        const glm::dvec3 point = grid().centre(grid().voxel_of(cell));
         std::optional<std::size_t> kind;
         if (map) kind = kind_in_field(parameters_, *map, point);
         if (!parameters_.map_file.empty()) kind = parameters_.map_kinds[parameters_.map_file.at(point, box)];
@@ -80,7 +83,7 @@ const SoilBeginning& SoilLayout::beginning(const glm::dvec3& point) const {
     return *found;
 }
 
-NeighbourRows SoilLayout::neighbours(std::size_t row) const {
+NeighbourRows SoilRows::neighbours(std::size_t row) const {
     const glm::ivec3 size = grid_.size();
     const int y = grid_.y_of(row), z = grid_.z_of(row);
     const auto begin = [&](int at_y, int at_z) { return grid_.row_begin(std::size_t(at_z) * size.y + at_y); };
@@ -95,7 +98,7 @@ NeighbourRows SoilLayout::neighbours(std::size_t row) const {
             front != z};
 }
 
-void SoilLayout::wrap(double* row) const {
+void SoilRows::wrap(double* row) const {
     const int n = grid_.size().x;
     row[-1] = joined_x_ ? row[n - 1] : 0;
     row[n] = joined_x_ ? row[0] : 0;

@@ -8,8 +8,10 @@ namespace {
 
 constexpr double newton_tolerance = 1e-7;  ///< m3/m3: what a voxel may carry over to the next substep
 constexpr double negligible = 1e-6 * newton_tolerance;
+constexpr double linear_tolerance = 1e-2;  ///< of what a Newton step solves: fewer such steps would cost more
 constexpr int most_newton_steps = 25, most_halvings = 6;
 constexpr double wet = 0.9;         ///< effective saturation above which a voxel is changed by its head
+constexpr double stone = 1e-30;     ///< the equation of a stone: of no weight, so that its head does not matter
 constexpr double just_full = 5e-4;  ///< cm: below saturation, where the curves are straight
 
 double larger(double norm, double other) {
@@ -24,7 +26,7 @@ SoilNewton::SoilNewton(const SoilLayout& layout, const SoilParameters& parameter
       points_(grid_.cells()),
       fluxes_(layout, parameters),
       row_norm_(grid_.rows()),
-      jacobian_(layout) {
+      jacobian_(layout.rows()) {
     for (WaterBrick* brick : {&heads_, &uptake_, &uptake_by_head_, &residual_, &change_, &before_}) {
         brick->assign(grid_.cells(), 0.0);
     }
@@ -35,7 +37,7 @@ bool SoilNewton::solve(const WaterBrick& heads, const ImplicitStep& step) {
     double norm = evaluate(step, step.sinks);
     for (int i = 0; i < most_newton_steps; ++i) {
         if (norm <= newton_tolerance) return true;
-        if (jacobian_.solve(fluxes_.faces(), residual_, 1e-3, change_) < 0) return false;
+        if (jacobian_.solve(fluxes_.faces(), residual_, linear_tolerance, change_) < 0) return false;
         norm = search_line(norm, step);
         if (!std::isfinite(norm)) return false;
     }
@@ -97,7 +99,7 @@ double SoilNewton::find_residuals(std::size_t row, const ImplicitStep& step) {
     for (int x = 0; x < grid_.size().x; ++x) {
         const std::size_t c = at.own + x;
         if (!layout_.free(c)) {
-            jacobian_.diagonal[c] = 1;
+            jacobian_.diagonal()[c] = stone;
             residual_[c] = 0;
             continue;
         }
@@ -106,7 +108,7 @@ double SoilNewton::find_residuals(std::size_t row, const ImplicitStep& step) {
         by_head += edge * uptake_by_head_[c];
         residual_[c] = -(edge * (points_[c].content - step.theta_0[c]) / dt + out);
         // Soil that is full everywhere stores nothing: a trace of storage chooses one of its heads.
-        jacobian_.diagonal[c] = edge * std::max(points_[c].capacity, 1e-12) / dt + by_head;
+        jacobian_.diagonal()[c] = edge * std::max(points_[c].capacity, 1e-12) / dt + by_head;
         norm = larger(norm, std::abs(residual_[c]) * dt / edge);
     }
     return norm;
