@@ -28,6 +28,22 @@ int column_of(Parser parser) {
         return static_cast<int>(XML_GetCurrentColumnNumber(parser));
     }
 }
+template <class Parser>
+std::size_t begin_of(Parser parser) {
+    if constexpr (requires { XML_GetCurrentByteIndex64(parser); }) {
+        return static_cast<std::size_t>(XML_GetCurrentByteIndex64(parser));
+    } else {
+        return static_cast<std::size_t>(XML_GetCurrentByteIndex(parser));
+    }
+}
+template <class Parser>
+std::size_t length_of(Parser parser) {
+    if constexpr (requires { XML_GetCurrentByteCount64(parser); }) {
+        return static_cast<std::size_t>(XML_GetCurrentByteCount64(parser));
+    } else {
+        return static_cast<std::size_t>(XML_GetCurrentByteCount(parser));
+    }
+}
 
 }  // namespace
 
@@ -121,11 +137,11 @@ void XmlReader::require(bool is_read) const {
 }
 
 std::size_t XmlReader::tag_begin() const {
-    return static_cast<std::size_t>(XML_GetCurrentByteIndex(parser_.get()));
+    return begin_of(parser_.get());
 }
 
 std::size_t XmlReader::tag_end() const {
-    return tag_begin() + static_cast<std::size_t>(XML_GetCurrentByteCount(parser_.get()));
+    return tag_begin() + length_of(parser_.get());
 }
 
 Place XmlReader::here() const {

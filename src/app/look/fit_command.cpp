@@ -194,7 +194,7 @@ private:
         if (part_.empty()) return options;
         const std::size_t slash = part_.find('/');
         const auto number = whole_text_as<int>(part_.substr(0, slash));
-        const auto of = slash == part_.npos ? std::nullopt : whole_text_as<int>(part_.substr(slash + 1));
+        const auto of = whole_text_as<int>(slash == part_.npos ? "" : part_.substr(slash + 1));
         if (!number || !of || *number < 1 || *number > *of) {
             throw UserError(fmt::format("--part {}: expected NUMBER/OF, such as 3/20", part_));
         }

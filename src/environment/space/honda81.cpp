@@ -104,7 +104,8 @@ private:
     // Most cells around it are empty, which a processor foresees if its own, known already, is not among them.
     bool is_free(const PointGrid& grid, std::size_t cell, std::uint32_t i) const {
         const auto leaves_free = [&](std::uint32_t other) {
-            return (other == i) | (vigours_[other] < vigours_[i]) | !is_near(i, other);
+            const bool is_far = !is_near(i, other);
+            return (other == i) | (vigours_[other] < vigours_[i]) | is_far;
         };
         const std::span<const std::uint32_t> beside = grid.members(cell);
         return std::all_of(beside.begin(), beside.end(), leaves_free) &&
