@@ -68,6 +68,7 @@ async function bundle() {
   const viewer = await build({ ...common, entryPoints: [join(source, "view/index.ts")], globalName: "EspalierView" });
   const page = await build({ ...common, entryPoints: [join(source, "main.ts")], plugins: [viewerIsGlobal] });
   const worker = await build({ ...common, entryPoints: [join(source, "web/worker.ts")] });
+  const loader = await build({ ...common, entryPoints: [join(source, "web/loader.ts")] });
   const style = await build({ ...common, entryPoints: [join(source, "studio.css")] });
   const names = new Set([...packagesOf(viewer), ...packagesOf(page), ...packagesOf(style)]);
   return {
@@ -76,6 +77,7 @@ async function bundle() {
     "studio.js": `${textOf(viewer)}/*--- studio ---*/\n${textOf(page)}`,
     "studio.css": textOf(style),
     "worker.js": textOf(worker),
+    "loader.js": textOf(loader),
     "LICENSES.txt": licences(names),
   };
 }

@@ -1,7 +1,8 @@
-// Puts together the studio that needs no server: node site.mjs MODULE_FOLDER OUT
+// Puts together the studio that needs no server: node site.mjs MODULE_FOLDER OUT LIVE
 //
-// OUT/index.html works from any web server below any path; OUT/espalier.html is the same in one file, which works from a disk.
-// MODULE_FOLDER has espalier.js and espalier.wasm, made by `cmake --build --preset web`.
+// OUT/index.html works from any web server below any path; OUT/espalier.html is the same in one file, which works from a disk;
+// LIVE is that without a library, for `espalier share --live`, which puts one growth into it. MODULE_FOLDER has espalier.js and espalier.wasm, made by `cmake --build --preset web`.
+import { execFileSync } from "node:child_process";
 import { copyFileSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { dirname, join, relative } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -9,7 +10,7 @@ import { gzipSync } from "node:zlib";
 
 const studio = dirname(fileURLToPath(import.meta.url));
 const repository = dirname(studio);
-const [moduleFolder, out] = process.argv.slice(2);
+const [moduleFolder, out, live] = process.argv.slice(2);
 const limit = 3_000_000; // bytes of the page in all, as it is sent
 
 function* filesBelow(folder) {
@@ -42,56 +43,84 @@ function pageWith(head, body = "") {
   return readFileSync(join(studio, "dist/index.html"), "utf8")
     .replace("<html ", '<html data-parts="" ')
     .replace('<meta charset="utf-8">', `<meta charset="utf-8">\n${head}`)
-    .replace("<body>\n", `<body>\n${body}`);
+    .replace("<body>\n", () => `<body>\n${body}`);
 }
 
 function inScript(text) {
   return text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
 }
 
+/** Of the page's packages, and of what the module has in it: texts of Debian. */
+function licences() {
+  const inModule = ["emscripten", "libfmt-dev", "libtomlplusplus-dev", "libglm-dev", "libeigen3-dev", "nlohmann-json3-dev"].map(
+    (name) => `${"-".repeat(80)}\n${name}\n\n${readFileSync(`/usr/share/doc/${name}/copyright`, "utf8")}`,
+  );
+  const page = readFileSync(join(studio, "dist/LICENSES.txt"), "utf8");
+  return `${page}\nThe module that grows plants contains parts of these packages.\n${inModule.join("\n")}`;
+}
+
+/** Letters that need no escape in a page; source/web/packed.ts reads them. */
+const letters = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%()*+,-./:;=?@[]^_{|}";
+
+function to85(bytes) {
+  const text = [];
+  for (let from = 0; from < bytes.length; from += 4) {
+    let number = 0;
+    for (let i = 0; i < 4; i++) number = number * 256 + (bytes[from + i] ?? 0);
+    let five = "";
+    for (let i = 0; i < 5; i++, number = Math.floor(number / 85)) five = letters[number % 85] + five;
+    text.push(five.slice(0, Math.min(4, bytes.length - from) + 1));
+  }
+  return text.join("");
+}
+
+function packedByXz(bytes) {
+  return execFileSync("xz", ["--format=xz", "--check=crc32", "-9e", "--stdout"], { input: bytes, maxBuffer: 1 << 26 });
+}
+
 /** One file: scripts, styles and parts are elements of it. */
 function singleFile(parts) {
   const text = (name) => readFileSync(join(studio, "dist", name), "utf8");
-  const elements = Object.entries(parts).map(
-    ([name, bytes]) => `<script type="application/base64" id="part-${name}">${bytes.toString("base64")}</script>\n`,
+  const elements = Object.entries({ ...parts, "studio.js": gzipSync(text("studio.js"), { level: 9 }) }).map(
+    ([name, bytes]) => `<script type="application/base85" id="part-${name}">${to85(bytes)}</script>\n`,
   );
   const icon = `data:image/svg+xml;base64,${Buffer.from(text("icon.svg")).toString("base64")}`;
   return pageWith(`<meta http-equiv="Content-Security-Policy" content="${policy("'unsafe-inline'")}">`, elements.join(""))
     .replace("icon.svg", icon)
-    .replace('<link rel="stylesheet" href="studio.css">', () => `<style>${text("studio.css")}</style>`)
+    .replace('<link rel="stylesheet" href="studio.css">', () => `<style data-file="studio.css">${text("studio.css")}</style>`)
     .replace('<script src="studio.js" defer></script>\n', "")
-    .replace("</body>", () => `<script>${inScript(text("studio.js"))}</script>\n</body>`);
+    .replace("</body>", () => `<script>${inScript(text("loader.js"))}</script>\n</body>`);
 }
 
 rmSync(out, { recursive: true, force: true });
 mkdirSync(out, { recursive: true });
-const module = gzipSync(readFileSync(join(moduleFolder, "espalier.wasm")), { level: 9 });
+const module = packedByXz(readFileSync(join(moduleFolder, "espalier.wasm")));
 const worker = Buffer.concat([readFileSync(join(moduleFolder, "espalier.js")), readFileSync(join(studio, "dist/worker.js"))]);
 const files = {
   "index.html": pageWith(`<meta http-equiv="Content-Security-Policy" content="${policy("'self'")}">`),
-  "espalier.wasm.gz": module,
-  "library.pack.gz": gzipSync(packOfLibrary(true), { level: 9 }),
+  "espalier.wasm.xz": module,
+  "library.pack": gzipSync(packOfLibrary(true), { level: 9 }),
   "worker.js": worker,
 };
-for (const name of ["studio.js", "studio.css", "icon.svg", "LICENSES.txt"]) files[name] = readFileSync(join(studio, "dist", name));
+files["LICENSES.txt"] = licences();
+for (const name of ["studio.js", "studio.css", "icon.svg"]) files[name] = readFileSync(join(studio, "dist", name));
 for (const [name, bytes] of Object.entries(files)) writeFileSync(join(out, name), bytes);
 for (const path of filesBelow(gallery)) {
   const place = join(out, relative(repository, path));
   mkdirSync(dirname(place), { recursive: true });
   copyFileSync(path, place);
 }
-writeFileSync(
-  join(out, "espalier.html"),
-  singleFile({
-    "espalier.wasm.gz": module,
-    "library.pack.gz": gzipSync(packOfLibrary(false), { level: 9 }),
-    "worker.js": gzipSync(worker, { level: 9 }),
-  }),
-);
+const inside = {
+  "espalier.wasm.xz": module,
+  "worker.js": gzipSync(worker, { level: 9 }),
+  "LICENSES.txt": packedByXz(licences()),
+};
+writeFileSync(join(out, "espalier.html"), singleFile({ ...inside, "library.pack": gzipSync(packOfLibrary(false), { level: 9 }) }));
+writeFileSync(live, singleFile(inside));
 
 let total = 0;
 for (const [name, bytes] of Object.entries(files)) {
-  const size = name.endsWith(".gz") ? bytes.length : gzipSync(bytes, { level: 9 }).length;
+  const size = /[.](xz|pack)$/.test(name) ? bytes.length : gzipSync(bytes, { level: 9 }).length;
   if (name !== "LICENSES.txt") total += size;
   console.log(`${name}: ${(size / 1000).toFixed(1)} kB compressed`);
 }

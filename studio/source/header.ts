@@ -8,6 +8,7 @@ import type { Layout } from "./layout.js";
 import { shareHtmlDialog, shareLinkDialog } from "./share.js";
 import type { Studio } from "./state.js";
 import type { PlantScene } from "./view/index.js";
+import { addressInside } from "./web/parts.js";
 
 export interface HeaderParts {
   studio: Studio;
@@ -165,6 +166,13 @@ const keys: [string, string][] = [
   ["Tab, then Escape", "leave the text"],
 ];
 
+/** A file beside the page, or a part of it. */
+function licences(): HTMLElement {
+  const link = h("a", "", { href: "LICENSES.txt", target: "_blank" }, "licences");
+  void addressInside("LICENSES.txt").then((address) => address && link.setAttribute("href", address));
+  return link;
+}
+
 function keysDialog(): void {
   openDialog(
     "Keys",
@@ -180,13 +188,6 @@ function keysDialog(): void {
       {},
       ...keys.flatMap(([name, what]) => [h("dt", "", {}, h("kbd", "", {}, name)), h("dd", "", {}, what)]),
     ),
-    h(
-      "p",
-      "hint",
-      {},
-      "This page contains free software of others: ",
-      h("a", "", { href: "LICENSES.txt", target: "_blank" }, "licences"),
-      ".",
-    ),
+    h("p", "hint", {}, "This page contains free software of others: ", licences(), "."),
   );
 }

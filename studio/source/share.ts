@@ -9,7 +9,10 @@ import type { PlantScene, Recording, SkyLook } from "./view/index.js";
 const marker = "/*--- studio ---*/";
 const longestLink = 8000;
 
+/** A file of the page, or, where the page is one file, the element that stands for it. */
 async function textOf(address: string): Promise<string> {
+  const inside = document.querySelector(`[data-file="${address}"]`)?.textContent;
+  if (inside) return inside;
   const response = await fetch(address);
   if (!response.ok) throw new Error(`${address} could not be read.`);
   return response.text();

@@ -4,7 +4,7 @@ import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { after, before, test } from "node:test";
-import { openBrowser, openPage, rests, shot } from "./browser.mjs";
+import { grown, openBrowser, openPage, rests, shot, told } from "./browser.mjs";
 import { workFolder, writeDay } from "./program.mjs";
 
 const program = resolve(process.argv[2] ?? "build/release/espalier");
@@ -108,4 +108,38 @@ test("a shared page has the sun of its scene in every step", async () => {
     return picture;
   };
   assert.notDeepEqual(await pictureOf("day.html"), await pictureOf("usual.html"));
+});
+
+test("a page that grows is the studio with one growth, and changes it", async () => {
+  writeFileSync(join(folder, "scene-live.toml"), '[[plant]]\nmodel = "tree.l"\n[simulation]\nsteps = 4\n');
+  call("share", "--live", "scene-live.toml", "--output", "live.html", "--title", 'An "oak" & more');
+  assert.ok(readFileSync(join(folder, "live.html")).length < 2_500_000);
+  const page = await openPage(browser, `file://${join(folder, "live.html")}`, { offline: true });
+  await told(page);
+  await grown(page);
+  await rests(page);
+  await shot(page, "live");
+  const count = () => page.locator(".status").textContent();
+  const before = await count();
+  const steps = page.getByRole("spinbutton", { name: "Steps" }).first();
+  assert.equal(await steps.inputValue(), "4");
+  await steps.fill("6");
+  await steps.press("Enter");
+  await page.waitForFunction((was) => document.querySelector(".status").textContent !== was, before);
+  await grown(page);
+  assert.notEqual(await count(), before);
+  assert.deepEqual(page.problems, []);
+  assert.match(await page.content(), /data-open="\/library\/scene-live.toml"/);
+  await page.context().close();
+});
+
+test("a page that grows has the files and the seed of a run", async () => {
+  call("run", "scene.toml", "--seed", "12", "--steps", "2", "--output", "seeded", "--quiet");
+  call("share", "--live", "seeded");
+  const page = await openPage(browser, `file://${join(folder, "seeded/share.html")}`, { offline: true });
+  await told(page);
+  await grown(page);
+  assert.equal(await page.getByRole("spinbutton", { name: "Seed" }).first().inputValue(), "12");
+  assert.deepEqual(page.problems, []);
+  await page.context().close();
 });

@@ -67,3 +67,25 @@ TEST_CASE_METHOD(Recorded, "What cannot be shared is said", "[app][share]") {
     CHECK_THAT(run("share run --step 99").err, Contains("99"));
     CHECK(run("share none").code == 1);
 }
+
+TEST_CASE_METHOD(Recorded, "A page that grows is made of a model, of a scene and of a run", "[app][share]") {
+    write("bush.toml", "[[plant]]\nmodel = \"bush.l\"\n");
+    CHECK(Json::parse(run("share --live bush.l --json").out)["files"] == 1);
+    CHECK(Json::parse(run("share --live bush.toml --output scene.html --json").out)["files"] == 2);
+    CHECK_THAT(text_of(path() / "bush.html"), Contains("data-open=\"/library/bush.l\""));
+    CHECK_THAT(text_of(path() / "scene.html"), Contains("data-open=\"/library/bush.toml\""));
+    const Outcome of_run = run("share --live run");
+    CHECK(of_run.code == 0);
+    CHECK(of_run.err.empty());
+    CHECK_THAT(text_of(path() / "run/share.html"), Contains("data-open=\"/library/bush.l\""));
+}
+
+TEST_CASE_METHOD(Recorded, "What a page that grows lacks is named", "[app][share]") {
+    REQUIRE(run("run bush.l --steps 3 --output shorter --quiet").code == 0);
+    CHECK_THAT(run("share --live shorter").err, Contains("without --steps 3"));
+    write("rays.toml", "[[plant]]\nmodel = \"bush.l\"\n[environment.light]\nprocess = \"ray-light\"\n");
+    CHECK_THAT(run("share --live rays.toml").err, Contains("'light' is ray-light, which needs the program"));
+    const Outcome both = run("share --live bush.l --frames 3");
+    CHECK(both.code != 0);
+    CHECK_THAT(both.err, Contains("excludes"));
+}

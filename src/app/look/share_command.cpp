@@ -1,13 +1,20 @@
 #include "espalier/archive/recorded_run.h"
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
+#include "espalier/base/read_log.h"
 #include "espalier/picture/render.h"
+#include "espalier/simulation/world.h"
 
 #include "app/command.h"
 #include "archive/chosen_frames.h"
 #include "base/folder.h"
+#include "base/number.h"
+#include "simulation/run/recorded_command.h"
+#include "studio/server/live_page.h"
 #include "studio/server/shared_page.h"
+#include "studio_documents.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -16,57 +23,140 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Processes that stand on libraries which pages do not have, or on programs.
+bool needs_program(const std::string& process) {
+    return process == "vdb" || process == "ray-light" || process == "external";
+}
+
+void warn_of_processes(const Scene& scene) {
+    for (const auto& [name, settings] : scene.environment.processes) {
+        const std::string type = settings.text_or("process", "");
+        if (!needs_program(type)) continue;
+        fmt::print(stderr, "warning: '{}' is {}, which needs the program: the page will say so instead of growing\n",
+                   name, type);
+    }
+}
+
+/// What a model or a scene reads until its first step.
+studio::LiveGrowth growth_of(const fs::path& opened) {
+    studio::LiveGrowth growth;
+    growth.opened = fs::absolute(opened).lexically_normal();
+    const ReadLog log;
+    const Scene scene = read_opened({growth.opened, {}, {}});
+    warn_of_processes(scene);
+    World(scene).start();
+    for (auto& [path, file] : log.files()) {
+        if (!file.kept) {
+            throw UserError(fmt::format("{}: a page has no room for more than 16 MB of files", path.string()));
+        }
+        growth.files[path] = std::move(file.bytes);
+    }
+    return growth;
+}
+
+/// What a run read, as its run.json has it.
+studio::LiveGrowth growth_of_run(const fs::path& run) {
+    const RecordedCommand command = read_command(run);
+    studio::LiveGrowth growth;
+    growth.opened = (command.folder / command.arguments.front()).lexically_normal();
+    for (const auto& [path, file] : command.inputs) {
+        if (!file.kept) throw UserError(fmt::format("{} was too large for run.json to keep it", path.string()));
+        growth.files[path] = file.bytes;
+    }
+    std::string others;
+    for (std::size_t i = 1; i < command.arguments.size(); ++i) {
+        if (command.arguments[i] == "--seed" && i + 1 < command.arguments.size()) {
+            growth.seed = whole_text_as<std::uint64_t>(command.arguments[++i]);
+        } else {
+            others += " " + command.arguments[i];
+        }
+    }
+    if (!others.empty()) fmt::print(stderr, "warning: the page grows the files of the run without{}\n", others);
+    if (!growth.files.contains(growth.opened)) {
+        throw UserError(fmt::format("{} does not hold {}, which it grew", run.string(), growth.opened.string()));
+    }
+    return growth;
+}
+
 class Share final : public Command {
 public:
     explicit Share(CLI::App& program)
-        : Command(program, "share", "write a run as one HTML page that can be turned and played in every browser") {
-        app().add_option("run", run_, "the folder of a run")->required();
-        app().add_option("--output", output_, "the page, a .html file; default: share.html in the folder of the run");
-        app().add_option("--step", steps_, frame_option_help)->capture_default_str();
+        : Command(program, "share",
+                  "write a run as one HTML page that can be turned and played in every browser, or that grows") {
+        app().add_option("run", run_, "the folder of a run; with --live also a scene or a model")->required();
+        app().add_option("--output", output_,
+                         "the page, a .html file; default: share.html in the folder of the run; of a scene or a model "
+                         "its name, here");
+        CLI::Option* const live = app().add_flag(
+            "--live", is_live_, "a page that grows the plants itself: the studio with the texts of the growth, 2.5 MB");
+        app().add_option("--step", steps_, frame_option_help)->capture_default_str()->excludes(live);
         app()
             .add_option("--frames", most_, "so many frames at most, evenly chosen from those of --step")
             ->check(CLI::Range(1, 100000))
-            ->capture_default_str();
+            ->capture_default_str()
+            ->excludes(live);
         app().add_option("--title", page_.title, "what stands below the plant; default: the name of the scene");
-        app().add_flag("--dark", page_.is_dark, "use a dark background");
+        app().add_flag("--dark", page_.is_dark, "use a dark background")->excludes(live);
         add_json_flag("print what was written as JSON");
         app().footer(
             R"(The page needs neither Espalier nor a network. It shows axes, leaves and organs in their colours, and a click on one
 shows its symbol, identity and recorded parameters; without textures and bark, which `share` in the studio takes along.
+With --live it is the studio: texts, sliders, charts, fields, and whoever opens it can change the plant. It keeps changes in the
+browser and hands them over as files. docs/web.md says what such a page cannot do.
 Examples:
   espalier share output/two-trees
-  espalier share output/two-trees --frames 20 --output trees.html)");
+  espalier share output/two-trees --frames 20 --output trees.html
+  espalier share --live environments/two-trees.toml
+  espalier share --live models/course/honda.l --output honda.html --title "Honda's tree")");
     }
 
     int run() override {
-        const RecordedRun run(folder_of_run(run_));
-        std::vector<const RecordedFrame*> frames = chosen_frames(run, steps_);
-        if (frames.size() > most_) frames = evenly(frames, most_);
-        const fs::path output = output_.empty() ? run.folder() / "share.html" : output_;
-        if (output.extension() != ".html") {
-            throw UserError(fmt::format("--output {}: expected the name of a .html file", output.string()));
+        if (is_live_) {
+            write_live();
+        } else {
+            write_recording();
         }
-        if (page_.title.empty()) page_.title = run.scene();
-        const std::string page = studio::shared_page(run, frames, page_);
-        if (output.has_parent_path()) make_folder(output.parent_path());
-        write_text(output, page);
-        tell(output, frames.size(), page.size());
         return exit_code::done;
     }
 
 private:
-    void tell(const fs::path& output, std::size_t frames, std::size_t bytes) const {
+    void write_recording() {
+        const RecordedRun run(folder_of_run(run_));
+        std::vector<const RecordedFrame*> frames = chosen_frames(run, steps_);
+        if (frames.size() > most_) frames = evenly(frames, most_);
+        if (page_.title.empty()) page_.title = run.scene();
+        write(studio::shared_page(run, frames, page_), run.folder() / "share.html", "frames", frames.size());
+    }
+
+    void write_live() {
+        const bool is_run = fs::is_directory(run_);
+        const fs::path run = is_run ? folder_of_run(run_) : fs::path();
+        studio::LiveGrowth growth = is_run ? growth_of_run(run) : growth_of(run_);
+        growth.title = page_.title.empty() ? growth.opened.stem().string() : page_.title;
+        const fs::path file = is_run ? run / "share.html" : growth.opened.stem().concat(".html");
+        write(studio::live_page(growth), file, "files", growth.files.size());
+    }
+
+    void write(const std::string& page, const fs::path& by_default, const std::string& what, std::size_t count) const {
+        const fs::path output = output_.empty() ? by_default : output_;
+        if (output.extension() != ".html") {
+            throw UserError(fmt::format("--output {}: expected the name of a .html file", output.string()));
+        }
+        if (output.has_parent_path()) make_folder(output.parent_path());
+        write_text(output, page);
         if (wants_json()) {
-            const nlohmann::ordered_json json{{"path", output.string()}, {"frames", frames}, {"bytes", bytes}};
+            const nlohmann::ordered_json json{{"path", output.string()}, {what, count}, {"bytes", page.size()}};
             fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
         } else {
-            fmt::print("{}: {} frames, {:.1f} MB\n", output.string(), frames, static_cast<double>(bytes) / 1e6);
+            const double megabytes = static_cast<double>(page.size()) / 1e6;
+            fmt::print("{}: {} {}, {:.1f} MB\n", output.string(), count, what, megabytes);
         }
     }
 
     fs::path run_, output_;
     std::string steps_ = "all";
     std::size_t most_ = 120;
+    bool is_live_ = false;
     studio::SharedPage page_;
 };
 

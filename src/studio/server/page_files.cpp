@@ -30,6 +30,7 @@ ESPALIER_PAGE_FILE(espalier_studio_js, "studio.js")
 ESPALIER_PAGE_FILE(espalier_studio_css, "studio.css")
 ESPALIER_PAGE_FILE(espalier_studio_icon, "icon.svg")
 ESPALIER_PAGE_FILE(espalier_studio_licences, "LICENSES.txt")
+ESPALIER_PAGE_FILE(espalier_studio_live, "live.html")
 
 namespace espalier::studio {
 namespace {
@@ -54,6 +55,10 @@ std::optional<PageFile> page_file(std::string_view address) {
                         between(espalier_studio_licences_begin, espalier_studio_licences_end)};
     }
     return std::nullopt;
+}
+
+std::string_view live_page_file() {
+    return between(espalier_studio_live_begin, espalier_studio_live_end);
 }
 
 }  // namespace espalier::studio

@@ -13,4 +13,7 @@ struct PageFile {
 /// The file at an address such as "/studio.js"; "/" is the page itself.
 std::optional<PageFile> page_file(std::string_view address);
 
+/// The page that needs no server, without a growth; studio/site.mjs makes it.
+std::string_view live_page_file();
+
 }  // namespace espalier::studio

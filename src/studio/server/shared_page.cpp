@@ -6,6 +6,7 @@
 #include "environment/light/sky/scene_sky.h"
 #include "studio/growth/recorded_frame.h"
 #include "studio/server/page_files.h"
+#include "studio/server/page_text.h"
 #include "studio/server/shared_organs.h"
 #include "studio/session/sky_message.h"
 
@@ -17,31 +18,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <zlib.h>
 
 namespace espalier::studio {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// As the page's own compression: deflate without a header.
-std::string deflated(const std::string& bytes) {
-    z_stream stream{};
-    constexpr int raw = -15, memory = 8;
-    if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, raw, memory, Z_DEFAULT_STRATEGY) != Z_OK) {
-        throw RunError("the page cannot be compressed: there is no memory left");
-    }
-    std::string out(deflateBound(&stream, bytes.size()), '\0');
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-    stream.avail_in = static_cast<uInt>(bytes.size());
-    stream.next_out = reinterpret_cast<Bytef*>(out.data());
-    stream.avail_out = static_cast<uInt>(out.size());
-    const int end = deflate(&stream, Z_FINISH);
-    deflateEnd(&stream);
-    if (end != Z_STREAM_END) throw RunError("a frame is too large for a page");
-    out.resize(stream.total_out);
-    return out;
-}
 
 std::string packed(const Json& json) {
     return base64(deflated(json.dump(-1, ' ', false, Json::error_handler_t::replace)));
@@ -100,23 +81,6 @@ Json recording_of(const RecordedRun& run, const std::vector<const RecordedFrame*
             {"skies", skies},
             {"camera", camera_for(run.geometry(*frames.back()))},
             {"light", {{"towardsEye", nullptr}, {"towardsLight", nullptr}, {"background", nullptr}}}};
-}
-
-std::string with_all(std::string text, std::string_view from, std::string_view to) {
-    for (std::size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size())) {
-        text.replace(at, from.size(), to);
-    }
-    return text;
-}
-
-/// Text that may stand inside a script element.
-std::string in_script(std::string_view text, std::string_view less) {
-    const std::string escape(less);
-    return with_all(with_all(std::string(text), "</", escape + "/"), "<!--", escape + "!--");
-}
-
-std::string in_html(std::string text) {
-    return with_all(with_all(std::move(text), "&", "&amp;"), "<", "&lt;");
 }
 
 /// The first of the two scripts of the page: what a shared file has, too.

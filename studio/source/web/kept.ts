@@ -1,7 +1,8 @@
 /** The session's own files, kept here for the next worker and in the browser for the next visit. */
 import type { KeptFile } from "./messages.js";
 
-const name = "espalier-studio";
+/** Pages of one growth keep what is theirs. */
+const name = document.documentElement.dataset.open ? `espalier-studio ${location.pathname}` : "espalier-studio";
 const store = "files";
 
 const files = new Map<string, Uint8Array<ArrayBuffer>>();

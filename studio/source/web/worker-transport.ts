@@ -11,6 +11,15 @@ const urgent = new Set(["stop", "change", "graph", "points", "view-value", "undo
 const patience = 900; // ms
 
 const firstTree = "/library/environments/tree.toml";
+/** A page of one growth says its file, and its seed. */
+const { open: own, seed: ownSeed } = document.documentElement.dataset;
+
+function howToBegin(isFirst: boolean): Begin {
+  if (!own) return { open: firstTree, seed: Math.floor(Math.random() * 1000) };
+  const begin: Begin = { open: own, named: isFirst }; // those that follow begin with what is kept
+  if (ownSeed) begin.seed = Number(ownSeed);
+  return begin;
+}
 
 interface Parts {
   module: WebAssembly.Module;
@@ -23,8 +32,8 @@ let loaded: Promise<Parts> | null = null;
 
 async function load(): Promise<Parts> {
   const [module, library, script] = await Promise.all([
-    part("espalier.wasm.gz").then((bytes) => WebAssembly.compile(bytes)),
-    part("library.pack.gz"),
+    part("espalier.wasm.xz").then((bytes) => WebAssembly.compile(bytes)),
+    part("library.pack"),
     part("worker.js").then((bytes) => URL.createObjectURL(new Blob([bytes], { type: "text/javascript" }))),
   ]);
   return { module, library, script };
@@ -56,6 +65,7 @@ export class WorkerTransport implements Transport {
   private ready = false;
   private readonly unheard: string[] = [];
   private saves = 0;
+  private begins = 0;
   private readonly files = new Map<number, (bytes: Uint8Array<ArrayBuffer> | null) => void>();
 
 
@@ -91,7 +101,7 @@ export class WorkerTransport implements Transport {
   private async begin(): Promise<void> {
     const { module, library, script } = await (loaded ??= load());
     const kept = await keptFiles();
-    const begin: Begin = { open: firstTree, seed: Math.floor(Math.random() * 1000) };
+    const begin = howToBegin(this.begins++ === 0);
     this.worker = new Worker(script);
     this.worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.hear(data);
     this.worker.onerror = (event) => {

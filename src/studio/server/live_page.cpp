@@ -1,0 +1,65 @@
+#include "studio/server/live_page.h"
+
+#include "espalier/base/error.h"
+
+#include "base/base64.h"
+#include "studio/server/page_files.h"
+#include "studio/server/page_text.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace espalier::studio {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+fs::path common_folder(const std::map<fs::path, std::string>& files) {
+    fs::path common = files.begin()->first.parent_path();
+    for (const auto& [path, bytes] : files) {
+        const auto end = std::mismatch(common.begin(), common.end(), path.begin(), path.end()).first;
+        fs::path shorter;
+        for (auto part = common.begin(); part != end; ++part) shorter /= *part;
+        common = std::move(shorter);
+    }
+    if (common.has_relative_path()) return common;
+    throw UserError(fmt::format("{} and {} have no folder in common: put copies of them beside each other",
+                                files.begin()->first.string(), files.rbegin()->first.string()));
+}
+
+/// What studio/source/web/library-pack.ts unpacks.
+std::string pack_of(const std::map<fs::path, std::string>& files, const fs::path& folder) {
+    Json names = Json::array();
+    std::string all;
+    for (const auto& [path, bytes] : files) {
+        names.push_back({path.lexically_relative(folder).generic_string(), bytes.size()});
+        all += bytes;
+    }
+    return names.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n" + all;
+}
+
+void replace(std::string& page, std::string_view was, const std::string& is) {
+    const std::size_t at = page.find(was);
+    if (at == page.npos) throw RunError(fmt::format("the page that grows has no '{}': build it anew", was));
+    page.replace(at, was.size(), is);
+}
+
+}  // namespace
+
+std::string live_page(const LiveGrowth& growth) {
+    const fs::path folder = common_folder(growth.files);
+    const std::string opened = "/library/" + growth.opened.lexically_relative(folder).generic_string();
+    const std::string seed = growth.seed ? fmt::format(" data-seed=\"{}\"", *growth.seed) : "";
+    std::string page(live_page_file());
+    replace(page, "<html ", fmt::format("<html data-open=\"{}\"{} ", in_html(opened), seed));
+    replace(page, "<title>Espalier studio</title>", fmt::format("<title>{}</title>", in_html(growth.title)));
+    replace(page, "<body>\n",
+            fmt::format("<body>\n<script type=\"application/base64\" id=\"part-library.pack\">{}</script>\n",
+                        base64(gzipped(pack_of(growth.files, folder)))));
+    return page;
+}
+
+}  // namespace espalier::studio
