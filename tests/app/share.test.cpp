@@ -68,6 +68,20 @@ TEST_CASE_METHOD(Recorded, "What cannot be shared is said", "[app][share]") {
     CHECK(run("share none").code == 1);
 }
 
+TEST_CASE_METHOD(Recorded, "A page has as many frames as its size allows, and says so", "[app][share]") {
+    const std::size_t whole = Json::parse(run("share run --json").out)["bytes"];
+    const std::size_t one = Json::parse(run("share run --frames 1 --json").out)["bytes"];
+    const std::size_t between = (whole + one) / 2;
+    const Outcome less = run("share run --size " + std::to_string(between));
+    CHECK_THAT(less.out, Contains(" of 7 frames"));
+    CHECK(text_of(path() / "run/share.html").size() <= between);
+    CHECK(recording_in("run/share.html")["steps"].size() < 7);
+    CHECK(recording_in("run/share.html")["steps"].back() == 6);
+    const Outcome none = run("share run --size 1K");
+    CHECK(none.code == 1);
+    CHECK_THAT(none.err, Contains("--size 1M") || Contains("--size 2M"));
+}
+
 TEST_CASE_METHOD(Recorded, "A page that grows is made of a model, of a scene and of a run", "[app][share]") {
     write("bush.toml", "[[plant]]\nmodel = \"bush.l\"\n");
     CHECK(Json::parse(run("share --live bush.l --json").out)["files"] == 1);

@@ -6,6 +6,7 @@
 #include "espalier/simulation/world.h"
 
 #include "app/command.h"
+#include "app/options.h"
 #include "archive/chosen_frames.h"
 #include "base/folder.h"
 #include "base/number.h"
@@ -91,9 +92,11 @@ public:
             "--live", is_live_, "a page that grows the plants itself: the studio with the texts of the growth, 2.5 MB");
         app().add_option("--step", steps_, frame_option_help)->capture_default_str()->excludes(live);
         app()
-            .add_option("--frames", most_, "so many frames at most, evenly chosen from those of --step")
+            .add_option("--frames", most_, "so many frames at most, evenly chosen from those of --step; default: 120")
             ->check(CLI::Range(1, 100000))
-            ->capture_default_str()
+            ->excludes(live);
+        app()
+            .add_option("--size", size_, "so many bytes at most, by fewer frames; default: 10 MB, or as --frames asks")
             ->excludes(live);
         app().add_option("--title", page_.title, "what stands below the plant; default: the name of the scene");
         app().add_flag("--dark", page_.is_dark, "use a dark background")->excludes(live);
@@ -106,6 +109,7 @@ browser and hands them over as files. docs/web.md says what such a page cannot d
 Examples:
   espalier share output/two-trees
   espalier share output/two-trees --frames 20 --output trees.html
+  espalier share output/two-trees --size 40M                         more frames than fit into the usual 10 MB
   espalier share --live environments/two-trees.toml
   espalier share --live models/course/honda.l --output honda.html --title "Honda's tree")");
     }
@@ -122,10 +126,40 @@ Examples:
 private:
     void write_recording() {
         const RecordedRun run(folder_of_run(run_));
-        std::vector<const RecordedFrame*> frames = chosen_frames(run, steps_);
-        if (frames.size() > most_) frames = evenly(frames, most_);
+        const std::vector<const RecordedFrame*> all = chosen_frames(run, steps_);
         if (page_.title.empty()) page_.title = run.scene();
-        write(studio::shared_page(run, frames, page_), run.folder() / "share.html", "frames", frames.size());
+        std::size_t count = std::min(all.size(), most_.value_or(usual_frames));
+        const auto page_of = [&](std::size_t frames) { return studio::shared_page(run, evenly(all, frames), page_); };
+        std::string page;
+        if (most_ && size_.empty()) {
+            page = page_of(count);
+        } else {
+            const std::size_t most = size_.empty() ? usual_size : size_in_bytes(size_, "--size");
+            page = within(most, count, page_of);
+            if (page.size() > most) {
+                throw UserError(fmt::format("one frame alone takes {:.1f} MB: say --size {}M", page.size() / 1e6,
+                                            page.size() / 1'000'000 + 1));
+            }
+        }
+        const std::string what = count < all.size() ? fmt::format("of {} frames", all.size()) : "frames";
+        write(page, run.folder() / "share.html", what, count);
+    }
+
+    /// The page of so many frames at most as `bytes` allow; `count` becomes their number.
+    template <class PageOf>
+    static std::string within(std::size_t bytes, std::size_t& count, const PageOf& page_of) {
+        constexpr std::size_t few = 3;
+        if (count > 2 * few) {  // what a frame takes, from pages of few of them
+            const double size = static_cast<double>(page_of(few).size());
+            const double each = (static_cast<double>(page_of(2 * few).size()) - size) / few;
+            const double fit = (static_cast<double>(bytes) - size) / std::max(each, 1.0) + few;
+            count = std::min(count, static_cast<std::size_t>(std::max(fit, 1.0)));
+        }
+        for (;;) {
+            std::string page = page_of(count);
+            if (page.size() <= bytes || count == 1) return page;
+            count = std::max<std::size_t>(1, std::min(count - 1, count * bytes / page.size()));
+        }
     }
 
     void write_live() {
@@ -145,7 +179,8 @@ private:
         if (output.has_parent_path()) make_folder(output.parent_path());
         write_text(output, page);
         if (wants_json()) {
-            const nlohmann::ordered_json json{{"path", output.string()}, {what, count}, {"bytes", page.size()}};
+            const nlohmann::ordered_json json{
+                {"path", output.string()}, {is_live_ ? "files" : "frames", count}, {"bytes", page.size()}};
             fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
         } else {
             const double megabytes = static_cast<double>(page.size()) / 1e6;
@@ -154,8 +189,9 @@ private:
     }
 
     fs::path run_, output_;
-    std::string steps_ = "all";
-    std::size_t most_ = 120;
+    static constexpr std::size_t usual_frames = 120, usual_size = 10'000'000;
+    std::string steps_ = "all", size_;
+    std::optional<std::size_t> most_;
     bool is_live_ = false;
     studio::SharedPage page_;
 };
