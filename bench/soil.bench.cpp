@@ -5,11 +5,13 @@
 #include "environment/soil/richards/column.h"
 #include "environment/soil/richards/reference.h"
 #include "environment/soil/roots/hydraulic_tree.h"
+#include "environment/soil/roots/uptake.h"
 #include "table.h"
 
 #include <algorithm>
 #include <benchmark/benchmark.h>
 #include <chrono>
+#include <cmath>
 #include <vector>
 
 namespace espalier::bench {
@@ -111,6 +113,37 @@ void copy_of_roots(benchmark::State& state) {
 }
 BENCHMARK(copy_of_roots)->UseRealTime();
 
+/// The same pieces in voxels of loam that dries: an evaluation, as a Newton step of the soil takes one.
+void uptake_from_drying_soil(benchmark::State& state) {
+    test::SoilBlock block(
+        "domain = { lower = [0, -0.4, 0], upper = [0.4, 0, 0.4] }\nvoxel = 0.02\nsoil = \"loam\"\n"
+        "initial = { head = -2000 }");
+    environment::PlantRoots roots;
+    roots.pieces = many_pieces();
+    const std::size_t count = roots.pieces.size(), side = 20;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t voxel = i * 7919 % (side * side * side);
+        roots.cells.push_back(block.grid.cell({int(voxel % side), int(voxel / side % side), int(voxel / side / side)}));
+    }
+    roots.radii.assign(count, 0.03);
+    environment::PlantUptake uptake(std::move(roots), block.layout);
+    environment::WaterBrick lengths(block.grid.cells(), 0.0);
+    uptake.add_lengths(lengths);
+    uptake.surround(lengths, true);
+    std::vector<environment::SoilPoint> points(block.grid.cells());
+    double drier = 0;  // cm
+    for (auto _ : state) {
+        state.PauseTiming();
+        drier = std::fmod(drier + 1, 2000);
+        for (std::size_t c = 0; c < points.size(); ++c) {
+            points[c] = block.layout.kind(c).at(-2000 - drier - static_cast<double>(c * 7 % 400));
+        }
+        state.ResumeTiming();
+        uptake.solve(points, environment::UptakeModel::network, {}, {}, 50, 0);
+    }
+}
+BENCHMARK(uptake_from_drying_soil)->UseRealTime();
+
 /// A step of Heun's on 64^3 voxels: a solute that flows and disperses.
 void solute_in_block(benchmark::State& state) {
     Settings settings = Settings::parse_toml(
@@ -172,6 +205,12 @@ const Row roots_copied{"the same, against copying the pieces",
                        Measure::time,
                        Goal::at_most,
                        60};
+const Row evaluation{"the uptake of these pieces from soil that dries, against copying the pieces",
+                     "uptake_from_drying_soil/real_time",
+                     "copy_of_roots/real_time",
+                     Measure::time,
+                     Goal::at_most,
+                     150};
 const Row solute{"a step of a solute on 64^3 voxels, per voxel, against copying the field",
                  "solute_in_block/real_time",
                  "copy_of_a_solute/real_time",

@@ -1,5 +1,7 @@
 #include "environment/soil/roots/uptake.h"
 
+#include "base/parallel.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -35,6 +37,7 @@ PlantUptake::PlantUptake(PlantRoots roots, const SoilLayout& soil) : roots_(std:
     water_.by_head.assign(count, 0);
     water_.surface.assign(count, 0);
     water_.xylem.assign(count, 0);
+    moved_.assign(count, 0);
     measure_conductance();
 }
 
@@ -115,35 +118,49 @@ double PlantUptake::mean_uptake(std::size_t piece) const {
 /// these is solved exactly.
 void PlantUptake::solve_network(std::span<const SoilPoint> points,
                                 const std::function<double(const CollarView&)>& collar_head) {
-    const std::size_t count = radial_.size();
     for (int step = 0; step < 60; ++step) {
-        for (std::size_t i = 0; i < count; ++i) {
-            if (roots_.cells[i] == PlantRoots::no_cell) continue;
-            const std::size_t cell = roots_.cells[i];
-            const RadialFlow flow =
-                radial_flow(soil_.kind(cell), points[cell], water_.xylem[i], radial_[i], resistance_[i]);
-            RootPiece& piece = roots_.pieces[i];
-            piece.radial = std::max(-flow.by_xylem, 1e-13 * radial_[i]);
-            piece.outside = heights_[i] + water_.xylem[i] + (piece.radial > 0 ? flow.flux / piece.radial : 0);
-            water_.surface[i] = flow.surface_head;
-            water_.by_head[i] = flow.by_soil * piece.surface_per_length * piece.length;
-        }
+        for_pieces([&](std::size_t i) { find_tangent(i, points); });
         const CollarView view = tree_.look(roots_.pieces);
         const double head = collar_head(view);
         tree_.flow(roots_.pieces, head, flow_);
-        double moved = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            const RootPiece& piece = roots_.pieces[i];
-            const double wall = piece.radial * piece.surface_per_length * piece.length;
-            water_.uptake[i] = flow_.uptake[i];
-            if (!(wall > 0)) continue;
-            const double xylem = piece.outside - flow_.uptake[i] / wall - heights_[i];
-            moved = std::max(moved, std::abs(xylem - water_.xylem[i]) / (1 + std::abs(xylem)));
-            water_.xylem[i] = xylem;
-        }
+        for_pieces([&](std::size_t i) { take_flow(i); });
         water_.collar = head - roots_.collar_height;
-        if (moved < 1e-9) break;
+        // Newton's method doubles the digits: what is left is below 1e-9.
+        if (*std::max_element(moved_.begin(), moved_.end()) < 1e-6) break;
     }
+}
+
+/// Calls work(piece) for all pieces, in parallel where that pays.
+template <class Work>
+void PlantUptake::for_pieces(Work work) const {
+    constexpr std::size_t grain = 4096;
+    for_in_parallel(tbb::blocked_range<std::size_t>(0, radial_.size(), grain), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) work(i);
+    });
+}
+
+/// Of the flow into a piece at its present head.
+void PlantUptake::find_tangent(std::size_t i, std::span<const SoilPoint> points) {
+    const std::size_t cell = roots_.cells[i];
+    if (cell == PlantRoots::no_cell) return;
+    const RadialFlow flow =
+        radial_flow(soil_.kind(cell), points[cell], water_.xylem[i], radial_[i], resistance_[i], water_.surface[i]);
+    RootPiece& piece = roots_.pieces[i];
+    piece.radial = std::max(-flow.by_xylem, 1e-13 * radial_[i]);
+    piece.outside = heights_[i] + water_.xylem[i] + (piece.radial > 0 ? flow.flux / piece.radial : 0);
+    water_.surface[i] = flow.surface_head;
+    water_.by_head[i] = flow.by_soil * piece.surface_per_length * piece.length;
+}
+
+/// What the tree has for a piece: its uptake, its head, and how far that moved.
+void PlantUptake::take_flow(std::size_t i) {
+    const RootPiece& piece = roots_.pieces[i];
+    const double wall = piece.radial * piece.surface_per_length * piece.length;
+    water_.uptake[i] = flow_.uptake[i];
+    if (!(wall > 0)) return;
+    const double xylem = piece.outside - flow_.uptake[i] / wall - heights_[i];
+    moved_[i] = std::abs(xylem - water_.xylem[i]) / (1 + std::abs(xylem));
+    water_.xylem[i] = xylem;
 }
 
 /// Feddes: each root takes its share of the demand, by its length, as far as the soil gives it. Couvreur: the shares of

@@ -16,20 +16,21 @@ double zone_factor(double radius, double outer_radius) {
 }
 
 RadialFlow radial_flow(const SoilHydraulics& soil, const SoilPoint& voxel, double xylem_head, double radial,
-                       double resistance) {
+                       double resistance, double guess) {
     if (!(radial > 0)) return {0, voxel.head, 0, 0};
     if (!(resistance > 0)) return {radial * (voxel.head - xylem_head), voxel.head, -radial, radial};
     // radial (h - xylem) resistance = potential(voxel) - potential(h), whose two sides cross between the two heads.
     const double both = radial * resistance;
-    double low = std::min(xylem_head, voxel.head), high = std::max(xylem_head, voxel.head), head = voxel.head;
-    SoilPoint at = voxel;
+    double low = std::min(xylem_head, voxel.head), high = std::max(xylem_head, voxel.head);
+    double head = guess > low && guess < high ? guess : voxel.head;
+    SoilPoint at = head == voxel.head ? voxel : soil.at(head);
     for (int i = 0; i < 80; ++i) {
         const double excess = both * (head - xylem_head) + at.potential - voxel.potential;
         (excess > 0 ? high : low) = head;
-        double next = head - excess / (both + at.conductivity);
-        if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-        const bool done = std::abs(next - head) <= 1e-13 * (1 + std::abs(head));
-        head = next;
+        const double next = head - excess / (both + at.conductivity);
+        // The step after one so small would change no digit that counts.
+        const bool done = std::abs(next - head) <= 1e-7 * (1 + std::abs(head)) || !(low < high);
+        head = done || (next >= low && next <= high) ? next : 0.5 * (low + high);
         at = soil.at(head);
         if (done) break;
     }

@@ -19,8 +19,9 @@ struct RadialFlow {
     double by_soil = 0;       ///< with the voxel's head, 1/d
 };
 
-/// `radial`: conductivity of the root, 1/d; `resistance`: radius times zone_factor, cm.
+/// `radial`: conductivity of the root, 1/d; `resistance`: radius times zone_factor, cm; `guess`: of the head at the
+/// surface, where the search begins if it lies between the two others.
 RadialFlow radial_flow(const SoilHydraulics& soil, const SoilPoint& voxel, double xylem_head, double radial,
-                       double resistance);
+                       double resistance, double guess = 1);
 
 }  // namespace espalier::environment
