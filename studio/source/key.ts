@@ -6,13 +6,26 @@ export function keyIn(text: string): string {
   return found?.[1] ?? "";
 }
 
+/** Frames of other pages may keep nothing. */
 export function keepKey(key: string): void {
-  sessionStorage.setItem("espalier.token", key);
+  try {
+    sessionStorage.setItem("espalier.token", key);
+  } catch {
+    // A reload asks for it again.
+  }
+}
+
+function keptKey(): string {
+  try {
+    return sessionStorage.getItem("espalier.token") ?? "";
+  } catch {
+    return "";
+  }
 }
 
 /** That of the page's address stays for a reload after the fragment has been used. */
 export function takeKey(): string {
   const key = keyIn(location.hash);
   if (key) keepKey(key);
-  return key || (sessionStorage.getItem("espalier.token") ?? "");
+  return key || keptKey();
 }

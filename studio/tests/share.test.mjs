@@ -143,3 +143,17 @@ test("a page that grows has the files and the seed of a run", async () => {
   assert.deepEqual(page.problems, []);
   await page.context().close();
 });
+
+test("a page that grows does so in the frame of another page, which may allow it scripts alone", async () => {
+  call("share", "--live", "tree.l", "--output", "framed.html");
+  writeFileSync(
+    join(folder, "outer.html"),
+    '<!doctype html><iframe sandbox="allow-scripts" src="framed.html" width="640" height="420" title="a tree"></iframe>',
+  );
+  const page = await openPage(browser, `file://${join(folder, "outer.html")}`, { offline: true });
+  const frame = page.frameLocator("iframe");
+  await frame.locator('.status[data-state="done"]').waitFor();
+  assert.match(await frame.locator(".status").textContent(), /internodes/);
+  assert.deepEqual(page.problems, []);
+  await page.context().close();
+});
