@@ -64,7 +64,7 @@ void leaves_side_by_side(benchmark::State& state, int threads) {
                 const auto out = [&](int k) { return all.columns[k].data() + first; };
                 solve({}, air,
                       {piece, in(day->photons), in(day->near_infrared), in(day->thermal), nullptr, in(day->v),
-                       in(day->jmax), nullptr, nullptr, out(0), out(1), out(2), out(3), out(4), out(5), out(6), nullptr,
+                       in(day->jmax), nullptr, nullptr, nullptr, out(0), out(1), out(2), out(3), out(4), out(5), out(6), nullptr,
                        out(7)});
             });
             benchmark::ClobberMemory();

@@ -14,7 +14,7 @@ namespace {
 
 /// Leaves of a kind that differ in all that they may differ in.
 struct ManyLeaves {
-    std::vector<double> photons, near_infrared, thermal, potential, v, jmax, slope, width;
+    std::vector<double> photons, near_infrared, thermal, potential, v, jmax, rd, slope, width;
     std::vector<double> assimilation, transpiration, conductance, temperature, internal, deficit, sent, sloping,
         residual;
 
@@ -27,6 +27,7 @@ struct ManyLeaves {
             potential.push_back(any.between(-8, 0));
             v.push_back(any.between(5, 150));
             jmax.push_back(any.between(10, 300));
+            rd.push_back(any.between(0, 5));
             slope.push_back(any.between(1, 9));
             width.push_back(any.between(0.001, 0.3));
         }
@@ -36,16 +37,16 @@ struct ManyLeaves {
         }
     }
     LeafColumns columns() {
-        return {photons.size(),      photons.data(),       near_infrared.data(),
-                thermal.data(),      potential.data(),     v.data(),
-                jmax.data(),         slope.data(),         width.data(),
-                assimilation.data(), transpiration.data(), conductance.data(),
-                temperature.data(),  internal.data(),      deficit.data(),
-                sent.data(),         sloping.data(),       residual.data()};
+        return {photons.size(),     photons.data(),     near_infrared.data(), thermal.data(),
+                potential.data(),   v.data(),           jmax.data(),          rd.data(),
+                slope.data(),       width.data(),       assimilation.data(),  transpiration.data(),
+                conductance.data(), temperature.data(), internal.data(),      deficit.data(),
+                sent.data(),        sloping.data(),     residual.data()};
     }
     LeafKind own(LeafKind kind, std::size_t i) const {
         kind.photosynthesis.carboxylation.at_25 = v[i];
         kind.photosynthesis.electron_transport.at_25 = jmax[i];
+        kind.photosynthesis.respiration.at_25 = rd[i];
         kind.stomata.slope = slope[i];
         kind.width = width[i];
         return kind;

@@ -19,6 +19,7 @@ LeafInputs<double> inputs_of(const LeafKind& leaf, const LeafLight& light, doubl
             potential,
             leaf.photosynthesis.carboxylation.at_25,
             leaf.photosynthesis.electron_transport.at_25,
+            leaf.photosynthesis.respiration.at_25,
             leaf.stomata.slope,
             leaf.width};
 }

@@ -44,6 +44,7 @@ void solve_in_lanes(const LeafKind& kind, const Air& air, const LeafColumns& col
                                from(columns.potential, 0),
                                from(columns.carboxylation, kind.photosynthesis.carboxylation.at_25),
                                from(columns.electron_transport, kind.photosynthesis.electron_transport.at_25),
+                               from(columns.respiration, kind.photosynthesis.respiration.at_25),
                                from(columns.slope, kind.stomata.slope),
                                from(columns.width, kind.width)};
         SoughtLeaf<T> sought(kind, air, in);

@@ -25,6 +25,7 @@ void solve(const LeafKind& kind, const Air& air, const LeafColumns& columns) {
         leaf.photosynthesis.carboxylation.at_25 = of(columns.carboxylation, kind.photosynthesis.carboxylation.at_25);
         leaf.photosynthesis.electron_transport.at_25 =
             of(columns.electron_transport, kind.photosynthesis.electron_transport.at_25);
+        leaf.photosynthesis.respiration.at_25 = of(columns.respiration, kind.photosynthesis.respiration.at_25);
         leaf.stomata.slope = of(columns.slope, kind.stomata.slope);
         leaf.width = of(columns.width, kind.width);
         gas_exchange(leaf, {of(columns.photons, 0), of(columns.near_infrared, 0), of(columns.thermal, 0)}, air,

@@ -13,7 +13,7 @@ namespace espalier::environment::leaf {
 struct LeafColumns {
     std::size_t count = 0;
     const double *photons, *near_infrared, *thermal, *potential;
-    const double *carboxylation, *electron_transport, *slope, *width;
+    const double *carboxylation, *electron_transport, *respiration, *slope, *width;
     double *assimilation, *transpiration, *conductance, *temperature, *internal, *deficit, *sent;
     double* by_potential;  ///< of the transpiration, mol m-2 s-1 MPa-1; null: not asked for
     double* residual;      ///< the largest

@@ -10,9 +10,9 @@ namespace espalier::environment::leaf {
 /// What leaves of one kind may differ in.
 template <class T>
 struct LeafInputs {
-    T photons, near_infrared, thermal;                  ///< see LeafLight
-    T potential;                                        ///< MPa
-    T carboxylation, electron_transport, slope, width;  ///< in place of those of the kind
+    T photons, near_infrared, thermal;                               ///< see LeafLight
+    T potential;                                                     ///< MPa
+    T carboxylation, electron_transport, respiration, slope, width;  ///< in place of those of the kind
 };
 
 /// What is found, see GasExchange and Residuals.
@@ -70,7 +70,8 @@ ESPALIER_INLINE LimitsOf<T> c3_limits(const Photosynthesis& leaf, const LeafInpu
     LimitsOf<T> all;
     const T gamma = warmth.of(compensation_point) * to_sea_level;
     const T inhibited = 1 + oxygen / michaelis_oxygen.at_25 / warmth.factor(michaelis_oxygen);
-    const T half = warmth.of(michaelis_carbon) * inhibited * to_sea_level, loss = warmth.of(leaf.respiration);
+    const T half = warmth.of(michaelis_carbon) * inhibited * to_sea_level,
+            loss = in.respiration * warmth.factor(leaf.respiration);
     const T electrons =
         electrons_of<T>(leaf, in.electron_transport * warmth.factor(leaf.electron_transport), in.photons);
     all.compensation = gamma;
@@ -88,7 +89,7 @@ template <class T>
 ESPALIER_INLINE LimitsOf<T> c4_limits(const Photosynthesis& leaf, const LeafInputs<T>& in, const Warmth<T>& warmth,
                                       double to_sea_level) {
     LimitsOf<T> all;
-    const T loss = warmth.of(leaf.respiration), sheath = all_of<T>(leaf.bundle_sheath);
+    const T loss = in.respiration * warmth.factor(leaf.respiration), sheath = all_of<T>(leaf.bundle_sheath);
     const T electrons =
         electrons_of<T>(leaf, in.electron_transport * warmth.factor(leaf.electron_transport), in.photons);
     const T half = warmth.of(michaelis_pep) * to_sea_level;

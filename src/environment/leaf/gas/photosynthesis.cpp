@@ -28,6 +28,7 @@ Limits limits_of(const Photosynthesis& leaf, double photons, double temperature,
     in.photons = photons;
     in.carboxylation = leaf.carboxylation.at_25;
     in.electron_transport = leaf.electron_transport.at_25;
+    in.respiration = leaf.respiration.at_25;
     return leaf_limits<double>(leaf, in, temperature, pressure);
 }
 

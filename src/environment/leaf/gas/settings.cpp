@@ -41,20 +41,20 @@ LeafKind read_leaf_kind(const Settings& settings, const LeafKind& common) {
     LeafKind leaf = read_forms(settings, common);
     Photosynthesis& rates = leaf.photosynthesis;
     if (rates.pathway == Pathway::c4) {
-        rates.carboxylation_pep.at_25 = settings.number_or("vp", rates.carboxylation_pep.at_25, Range::positive());
+        rates.carboxylation_pep.at_25 = settings.number_or("vp", rates.carboxylation_pep.at_25, of_carboxylation);
     }
-    rates.carboxylation.at_25 = settings.number_or("v", rates.carboxylation.at_25, Range::positive());
-    rates.electron_transport.at_25 = settings.number_or("jmax", rates.electron_transport.at_25, Range::positive());
-    rates.respiration.at_25 = settings.number_or("rd", rates.respiration.at_25, Range::not_negative());
-    if (settings.has("tpu")) rates.phosphate_use = settings.number("tpu", Range::positive());
+    rates.carboxylation.at_25 = settings.number_or("v", rates.carboxylation.at_25, of_carboxylation);
+    rates.electron_transport.at_25 = settings.number_or("jmax", rates.electron_transport.at_25, of_electron_transport);
+    rates.respiration.at_25 = settings.number_or("rd", rates.respiration.at_25, of_respiration);
+    if (settings.has("tpu")) rates.phosphate_use = settings.number("tpu", of_carboxylation);
     Stomata& stomata = leaf.stomata;
     stomata.least = settings.number_or("g0", stomata.least, Range::between(0, 5));
-    stomata.slope = settings.number_or("g1", stomata.slope, Range::between(0, 100));
+    stomata.slope = settings.number_or("g1", stomata.slope, of_slope);
     stomata.deficit_0 = settings.number_or("d0", stomata.deficit_0, Range::positive());
     stomata.sensitivity = settings.number_or("sf", stomata.sensitivity, Range::between(0, 50));
     stomata.reference = settings.number_or("psi_f", stomata.reference, Range::between(-20, 0));
     stomata.dry = settings.number_or("psi_dry", stomata.dry, Range::between(-100, 0));
-    leaf.width = settings.number_or("width", leaf.width, Range::between(1e-4, 10));
+    leaf.width = settings.number_or("width", leaf.width, of_width);
     return leaf;
 }
 

@@ -13,6 +13,10 @@ namespace espalier::environment::leaf {
 /// The leaf of a scene that says nothing: C3, with a g0 of 0.005 mol m-2 s-1.
 LeafKind usual_leaf();
 
+// What a leaf may have of each, in a scene and in a query.
+inline constexpr Range of_carboxylation{0, 1000, true}, of_electron_transport{0, 2000, true};  ///< umol m-2 s-1
+inline constexpr Range of_respiration{0, 100}, of_slope{0, 100}, of_width{1e-4, 10};           ///< ..., g1, m
+
 /// Reads `pathway`, `v`, `jmax`, `rd`, `tpu`, `stomata`, `g0`, `g1`, `d0`, `sf`, `psi_f`, `psi_dry`, `width`. What is
 /// not there is as in `common`; with another pathway or form of stomata, their parameters are the usual ones.
 LeafKind read_leaf_kind(const Settings& settings, const LeafKind& common = usual_leaf());
