@@ -2,6 +2,7 @@
 #include "espalier/environment/environment.h"
 #include "espalier/environment/environment_process.h"
 
+#include "base/bytes.h"
 #include "base/parallel.h"
 #include "environment/exchange/changing_settings.h"
 #include "environment/exchange/measured_before.h"
@@ -11,6 +12,7 @@
 #include "environment/leaf/leaves/leaf_kinds.h"
 #include "environment/leaf/leaves/plant_leaves.h"
 #include "environment/leaf/leaves/units.h"
+#include "environment/leaf/waves/canopy_waves.h"
 #include "geometry/drawn/faces.h"
 
 #include <fmt/format.h>
@@ -60,8 +62,9 @@ double state_of(const PlantLeaves& leaves, std::size_t row) {
     return leaves.state[State][row];
 }
 
-const std::array<LeafQuantity, 9>& known() {
-    static const std::array<LeafQuantity, 9> all{
+/// The last where long waves are followed.
+const std::array<LeafQuantity, 10>& known() {
+    static const std::array<LeafQuantity, 10> all{
         {{{"assimilation", "umol m-2 s-1", "net CO2 that leaves take, while there is light"}, state_of<assimilation>},
          {{"transpiration", "mmol m-2 s-1", "water that leaves give, while there is light"},
           [](const PlantLeaves& leaves, std::size_t row) { return 1000 * leaves.state[transpiration][row]; }},
@@ -74,7 +77,11 @@ const std::array<LeafQuantity, 9>& known() {
          {{"gain", "mol", "net CO2 of the organ in the step"},
           [](const PlantLeaves& leaves, std::size_t row) { return leaves.gain[row]; }},
          {{"water", "cm3", "water that the organ gives in the step"},
-          [](const PlantLeaves& leaves, std::size_t row) { return leaves.water[row]; }}}};
+          [](const PlantLeaves& leaves, std::size_t row) { return leaves.water[row]; }},
+         {{"thermal", "W m-2", "long waves that meet both sides together"},
+          [](const PlantLeaves& leaves, std::size_t row) {
+              return leaves.thermal.empty() ? std::nan("") : leaves.thermal[row];
+          }}}};
     return all;
 }
 
@@ -119,6 +126,7 @@ public:
             if (!weather_ || settings.has(key)) own_air_.insert(key);
         }
         has_own_pressure_ = settings.has("pressure") || settings.has("height");
+        read_long_waves(settings, context);
     }
 
     void advance(const WorldView& world, std::span<const Query>, Fields&) override {
@@ -147,12 +155,16 @@ public:
         seconds_ = world.dt * days_ * seconds_per_day;
         take_weather();
         solver_.emplace(kinds_, air_.air(), air_.thermal_radiation());
+        for (std::uint32_t plant = 0; plant < last_potentials_.size(); ++plant) {
+            last_potentials_[plant] = mean_potential(leaves_[plant], last_potentials_[plant]);
+        }
         for (PlantLeaves& plant : leaves_) plant.clear();
         for (SuppliedPlant& plant : supplied_) plant = {};
         for (const PlantView& plant : world.plants) {
             if (plant.plant < leaves_.size()) list_leaves(plant, *world.environment);
         }
         for (std::uint32_t plant = 0; plant < supplied_.size(); ++plant) list_supplied(plant);
+        if (waves_) follow_long_waves(world);
     }
 
     std::span<const DrawingLeaf> leaves(std::uint32_t plant) const override {
@@ -217,6 +229,7 @@ public:
                                   {"potential", area > 0 ? potential / area : none, "MPa"},
                                   {"leaf_area", area, "m2"},
                                   {"residual", residual}};
+        if (waves_) tell_long_waves(leaves, all);
         if (compares_) compare(plant, leaves, all);
         return all;
     }
@@ -224,6 +237,7 @@ public:
     std::vector<OrganQuantity> organ_quantities() const override {
         std::vector<OrganQuantity> all;
         for (const LeafQuantity& quantity : known()) all.push_back(quantity.told);
+        if (!waves_) all.pop_back();
         return all;
     }
 
@@ -248,13 +262,100 @@ public:
         std::erase_if(all, [&](const ChangingSetting& one) { return !own_air_.contains(one.key); });
         all.push_back(changing("cloud", Range::between(0, 1), air_.cloud));
         if (!supply_) all.push_back(changing("potential", Range::between(-20, 0), potential_));
+        if (soil_temperature_) all.push_back(changing("soil_temperature", soil_temperatures, *soil_temperature_));
         return all;
     }
 
     std::pair<int, int> query_arity() const override { return {1, static_cast<int>(form_.size())}; }
     Spreading spreading() const override { return Spreading::plants; }
 
+    void save(std::ostream& out) const override {
+        if (waves_ && supply_) write_doubles(out, last_potentials());
+    }
+    void restore(std::istream& in) override {
+        if (waves_ && supply_) read_doubles(in, last_potentials_);
+    }
+
 private:
+    static constexpr Range soil_temperatures{-40, 80};
+
+    void read_long_waves(const Settings& settings, const EnvironmentContext& context) {
+        if (!settings.has("long_waves")) {
+            if (!settings.has("soil_temperature")) return;
+            throw UserError(settings.place("soil_temperature"),
+                            "the soil's temperature counts with long waves only: add long_waves = { voxel = 0.2 }");
+        }
+        if (settings.has("thermal")) {
+            throw UserError(settings.place("thermal"),
+                            "long_waves find the thermal radiation of each leaf: leave out 'thermal' or 'long_waves'");
+        }
+        waves_ = std::make_unique<CanopyWaves>(settings.table("long_waves"), context);
+        last_potentials_.assign(supplied_.size(), 0);
+        if (settings.has("soil_temperature")) {
+            soil_temperature_ = settings.number("soil_temperature", soil_temperatures);
+        }
+    }
+
+    /// Temperatures of leaves and the waves that they exchange depend on each other: both are found in turn, until
+    /// nothing moves. Where roots bring the water, leaves have the plant's mean potential of the step before for that.
+    void follow_long_waves(const WorldView& world) {
+        constexpr int most_turns = 300;
+        constexpr double small_change = 1e-11;
+        waves_->lay(world, leaves_);
+        const double usual = air_.thermal_radiation();
+        std::vector<std::uint32_t> all;
+        for (std::uint32_t plant = 0; plant < leaves_.size(); ++plant) {
+            PlantLeaves& leaves = leaves_[plant];
+            leaves.thermal.assign(leaves.size(), usual);
+            leaves.sent.assign(leaves.size(), 0);
+            if (supply_) leaves.potential.assign(leaves.size(), last_potentials_[plant]);
+            all.push_back(plant);
+        }
+        const WavesAround around{waves_->sky().value_or(air_.sky_radiation()), air_.temperature,
+                                 soil_temperature_.value_or(air_.temperature), kinds_[0].emissivity};
+        const std::vector<LeafChunk> chunks = chunks_of(leaves_, all, kinds_.size());
+        for (int turn = 0; turn < most_turns; ++turn) {
+            for_in_parallel(std::size_t{0}, chunks.size(),
+                            [&](std::size_t i) { solver_->solve(leaves_, chunks[i], {.sent = true}); });
+            if (waves_->exchange(leaves_, around) < small_change) break;
+        }
+        if (!supply_) return;
+        for (PlantLeaves& leaves : leaves_) leaves.potential.assign(leaves.size(), potential_);
+    }
+
+    static double mean_potential(const PlantLeaves& leaves, double none) {
+        double sum = 0, area = 0;
+        for (std::size_t row = 0; row < leaves.size(); ++row) {
+            sum += leaves.area[row] * leaves.potential[row];
+            area += leaves.area[row];
+        }
+        return area > 0 ? sum / area : none;
+    }
+    std::vector<double> last_potentials() const {
+        std::vector<double> all;
+        for (std::uint32_t plant = 0; plant < last_potentials_.size(); ++plant) {
+            all.push_back(mean_potential(leaves_[plant], last_potentials_[plant]));
+        }
+        return all;
+    }
+
+    void tell_long_waves(const PlantLeaves& leaves, std::vector<Quantity>& all) const {
+        double sum = 0, area = 0;
+        for (std::size_t row = 0; row < leaves.size(); ++row) {
+            sum += leaves.area[row] * leaves.thermal[row];
+            area += leaves.area[row];
+        }
+        const WaveLedger& waves = waves_->ledger();
+        all.push_back({"thermal", area > 0 ? sum / area : std::nan(""), "W/m2"});
+        all.push_back({"waves_from_plants", waves.from_plants, "W"});
+        all.push_back({"waves_from_soil", waves.from_soil, "W"});
+        all.push_back({"waves_from_sky", waves.from_sky, "W"});
+        all.push_back({"waves_to_plants", waves.to_plants, "W"});
+        all.push_back({"waves_to_soil", waves.to_soil, "W"});
+        all.push_back({"waves_to_sky", waves.to_sky, "W"});
+        all.push_back({"waves_closure", waves.closure()});
+    }
+
     /// What a plant would do as one leaf, and what a lawn would.
     void compare(std::uint32_t plant, const PlantLeaves& leaves, std::vector<Quantity>& all) const {
         const double none = std::nan(""), days = seconds_ / seconds_per_day;
@@ -415,6 +516,9 @@ private:
     std::optional<LeafSolver> solver_;
     std::vector<PlantLeaves> leaves_;      ///< of each plant
     std::vector<SuppliedPlant> supplied_;  ///< of each plant
+    std::unique_ptr<CanopyWaves> waves_;   ///< null: leaves see the open sky
+    std::optional<double> soil_temperature_;
+    std::vector<double> last_potentials_;  ///< of each plant in the step before; with long waves
 };
 
 const std::string& help() {
@@ -438,6 +542,7 @@ days           1; days that a unit of time stands for
 
 Of the leaves:
 )" + leaf_help() +
+        canopy_waves_help() +
         R"(kinds          []; tables of other leaves: plants = [1, 2], by their numbers from 0, colours = [4], of the turtle that drew them, or
                both; and what of the above is different. The last that means a leaf counts
 query          ["gain", "water", "A", "E", "gs", "T", "Ci", "psi"]; what the parameters of a query are, in turn. A model that says of
@@ -459,9 +564,11 @@ The light of a step counts as its mean while there is light: photosynthesis is n
 right and steps of a day take 5 to 20 % too much on a clear one (C4: 3 to 10).
 
 Statistics of each plant: gain (mol) and water (cm3) of the step, transpiration (cm3/d), efficiency (mmol CO2 per mol of water),
-temperature, potential (MPa), leaf_area (m2), residual: how far the equations are from holding, of the largest term. With canopy = "big-leaf" also big_gain (mol), big_transpiration and
+temperature, potential (MPa), leaf_area (m2), residual: how far the equations are from holding, of the largest term. With
+long_waves also thermal (W/m2 that meet both sides, mean of the leaves) and, of the whole world in W, waves_from_plants, _soil and _sky
+and waves_to_plants, _soil and _sky, and waves_closure: all that is absorbed over all that is sent, less 1. With canopy = "big-leaf" also big_gain (mol), big_transpiration and
 penman_monteith (cm3/d) and fao56 (mm/d).
-Organs: assimilation, transpiration, conductance, temperature, internal, deficit, potential, gain, water.)";
+Organs: assimilation, transpiration, conductance, temperature, internal, deficit, potential, gain, water; with long_waves thermal.)";
     return text;
 }
 

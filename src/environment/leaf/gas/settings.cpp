@@ -90,12 +90,14 @@ Air SceneAir::air() const {
     return {temperature, humidity * saturation_pressure(temperature), wind, carbon_dioxide, pressure};
 }
 
-double SceneAir::thermal_radiation() const {
-    if (thermal) return *thermal;
+double SceneAir::sky_radiation() const {
     const double hectopascal = 10 * humidity * saturation_pressure(temperature);
     const double clear = 1.24 * math::pow(hectopascal / (temperature + kelvin), 1.0 / 7);
-    const double sky = (1 - 0.84 * cloud) * clear + 0.84 * cloud;
-    return (sky + 1) * black_body(temperature);
+    return ((1 - 0.84 * cloud) * clear + 0.84 * cloud) * black_body(temperature);
+}
+
+double SceneAir::thermal_radiation() const {
+    return thermal ? *thermal : sky_radiation() + black_body(temperature);
 }
 
 const std::string& leaf_help() {

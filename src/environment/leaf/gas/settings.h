@@ -37,8 +37,9 @@ struct SceneAir {
 
     static SceneAir read(const Settings& settings);
     Air air() const;
-    /// Without a number of the scene: of the sky (Brutsaert 1975; clouds as Monteith & Unsworth 1990, eq. 4.23), and of
-    /// a ground as warm as the air.
+    /// Of the sky on level ground, W m-2 (Brutsaert 1975; clouds as Monteith & Unsworth 1990, eq. 4.23).
+    double sky_radiation() const;
+    /// Without a number of the scene: of that sky, and of a ground as warm as the air.
     double thermal_radiation() const;
 };
 
