@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "environment/exchange/changing_settings.h"
 #include "environment/exchange/measured_before.h"
+#include "environment/exchange/needed_field.h"
 #include "environment/given/weather/weather.h"
 #include "environment/leaf/gas/leaf_water.h"
 #include "environment/leaf/leaves/big_leaf.h"
@@ -85,11 +86,18 @@ const std::array<LeafQuantity, 10>& known() {
     return all;
 }
 
+std::string light_named_by(const Settings& settings) {
+    if (settings.has("light")) return settings.text("light");
+    throw UserError(settings.place(),
+                    "leaves need light: write light = \"light\", the name of a canopy-light or a ray-light that stands "
+                    "before them in the scene");
+}
+
 /// The process that brings water to leaves; null: their potential is given.
 LeafSupply* supply_of(const Settings& settings, const Fields& fields) {
     if (!settings.has("roots")) return nullptr;
     const std::string name = settings.text("roots");
-    auto* const supply = dynamic_cast<LeafSupply*>(fields.need(name).source);
+    auto* const supply = dynamic_cast<LeafSupply*>(needed_field(settings, "roots", name, fields, "root-water").source);
     if (!supply) {
         throw UserError(settings.place("roots"),
                         fmt::format("'{}' is not a root-water, which brings water to leaves", name));
@@ -106,7 +114,7 @@ class LeafExchange final : public EnvironmentProcess, public LeafWater {
 public:
     LeafExchange(Settings& settings, const EnvironmentContext& context, Fields& fields)
         : name_(context.name),
-          light_(settings.text("light")),
+          light_(light_named_by(settings)),
           light_place_(settings.place("light")),
           kinds_(settings, context.plants),
           form_(settings, context.name),
@@ -156,7 +164,7 @@ public:
         take_weather();
         solver_.emplace(kinds_, air_.air(), air_.thermal_radiation());
         for (std::uint32_t plant = 0; plant < last_potentials_.size(); ++plant) {
-            last_potentials_[plant] = mean_potential(leaves_[plant], last_potentials_[plant]);
+            last_potentials_[plant] = mean_of(leaves_[plant], leaves_[plant].potential, last_potentials_[plant]);
         }
         for (PlantLeaves& plant : leaves_) plant.clear();
         for (SuppliedPlant& plant : supplied_) plant = {};
@@ -210,23 +218,25 @@ public:
     std::vector<Quantity> statistics(std::uint32_t plant) const override {
         static const PlantLeaves no_leaves;
         const PlantLeaves& leaves = plant < leaves_.size() ? leaves_[plant] : no_leaves;
-        double area = 0, gain = 0, water = 0, warmth = 0, potential = 0, residual = 0;
+        double area = 0, gain = 0, water = 0, residual = 0;
         for (std::size_t row = 0; row < leaves.size(); ++row) {
             area += leaves.area[row];
             gain += leaves.gain[row];
             water += leaves.water[row];
-            warmth += leaves.area[row] * leaves.state[temperature][row];
-            potential += leaves.area[row] * leaves.potential[row];
             residual = std::max(residual, double(leaves.residual[row]));
         }
         if (plant < supplied_.size()) residual = std::max(residual, supplied_[plant].residual);
-        const double none = std::nan(""), days = seconds_ / seconds_per_day, moles = water / cm3_of_mole;
+        const auto mean = [&](const auto& column) { return mean_of(leaves, column, std::nan("")); };
+        const double days = seconds_ / seconds_per_day, moles = water / cm3_of_mole;
         std::vector<Quantity> all{{"gain", gain, "mol"},
                                   {"water", water, "cm3"},
                                   {"transpiration", days > 0 ? water / days : 0, "cm3/d"},
-                                  {"efficiency", moles > 0 ? 1000 * gain / moles : none, "mmol/mol"},
-                                  {"temperature", area > 0 ? warmth / area : none, "degC"},
-                                  {"potential", area > 0 ? potential / area : none, "MPa"},
+                                  {"efficiency", moles > 0 ? 1000 * gain / moles : std::nan(""), "mmol/mol"},
+                                  {"assimilation", mean(leaves.state[assimilation]), "umol m-2 s-1"},
+                                  {"conductance", mean(leaves.state[conductance]), "mol m-2 s-1"},
+                                  {"internal", mean(leaves.state[internal]), "umol/mol"},
+                                  {"temperature", mean(leaves.state[temperature]), "degC"},
+                                  {"potential", mean(leaves.potential), "MPa"},
                                   {"leaf_area", area, "m2"},
                                   {"residual", residual}};
         if (waves_) tell_long_waves(leaves, all);
@@ -323,10 +333,11 @@ private:
         for (PlantLeaves& leaves : leaves_) leaves.potential.assign(leaves.size(), potential_);
     }
 
-    static double mean_potential(const PlantLeaves& leaves, double none) {
+    /// Over the area of the leaves.
+    static double mean_of(const PlantLeaves& leaves, const std::vector<double>& column, double none) {
         double sum = 0, area = 0;
         for (std::size_t row = 0; row < leaves.size(); ++row) {
-            sum += leaves.area[row] * leaves.potential[row];
+            sum += leaves.area[row] * column[row];
             area += leaves.area[row];
         }
         return area > 0 ? sum / area : none;
@@ -334,19 +345,14 @@ private:
     std::vector<double> last_potentials() const {
         std::vector<double> all;
         for (std::uint32_t plant = 0; plant < last_potentials_.size(); ++plant) {
-            all.push_back(mean_potential(leaves_[plant], last_potentials_[plant]));
+            all.push_back(mean_of(leaves_[plant], leaves_[plant].potential, last_potentials_[plant]));
         }
         return all;
     }
 
     void tell_long_waves(const PlantLeaves& leaves, std::vector<Quantity>& all) const {
-        double sum = 0, area = 0;
-        for (std::size_t row = 0; row < leaves.size(); ++row) {
-            sum += leaves.area[row] * leaves.thermal[row];
-            area += leaves.area[row];
-        }
         const WaveLedger& waves = waves_->ledger();
-        all.push_back({"thermal", area > 0 ? sum / area : std::nan(""), "W/m2"});
+        all.push_back({"thermal", mean_of(leaves, leaves.thermal, std::nan("")), "W/m2"});
         all.push_back({"waves_from_plants", waves.from_plants, "W"});
         all.push_back({"waves_from_soil", waves.from_soil, "W"});
         all.push_back({"waves_from_sky", waves.from_sky, "W"});
@@ -564,6 +570,7 @@ The light of a step counts as its mean while there is light: photosynthesis is n
 right and steps of a day take 5 to 20 % too much on a clear one (C4: 3 to 10).
 
 Statistics of each plant: gain (mol) and water (cm3) of the step, transpiration (cm3/d), efficiency (mmol CO2 per mol of water),
+means over the area while there was light of assimilation (umol m-2 s-1), conductance (mol m-2 s-1), internal (umol/mol),
 temperature, potential (MPa), leaf_area (m2), residual: how far the equations are from holding, of the largest term. With
 long_waves also thermal (W/m2 that meet both sides, mean of the leaves) and, of the whole world in W, waves_from_plants, _soil and _sky
 and waves_to_plants, _soil and _sky, and waves_closure: all that is absorbed over all that is sent, less 1. With canopy = "big-leaf" also big_gain (mol), big_transpiration and

@@ -4,6 +4,7 @@
 #include "espalier/environment/environment_process.h"
 
 #include "base/bytes.h"
+#include "environment/exchange/needed_field.h"
 #include "environment/soil/grid/field.h"
 #include "environment/soil/hydraulics/heads.h"
 #include "environment/soil/richards/sink.h"
@@ -26,7 +27,7 @@ namespace {
 
 SharedSoil& soil_of(const Settings& settings, const Fields& fields) {
     const std::string name = settings.text_or("soil", "water");
-    auto* const soil = dynamic_cast<SharedSoil*>(fields.need(name).source);
+    auto* const soil = dynamic_cast<SharedSoil*>(needed_field(settings, "soil", name, fields, "soil-water").source);
     if (soil) return *soil;
     throw UserError(
         settings.place("soil"),

@@ -2,6 +2,8 @@
 
 #include "espalier/base/math.h"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 namespace espalier::environment::leaf {
@@ -70,11 +72,18 @@ double read_carbon_dioxide(const Settings& settings, double fallback) {
     throw UserError(settings.place("co2"), "'co2' is in umol per mol of air, 50 to 10000: 40 Pa at sea level are 400");
 }
 
+double read_wind(const Settings& settings, double fallback) {
+    const double wind = settings.number_or("wind", fallback, Range::any());
+    if (wind >= 0.01 && wind <= 100) return wind;
+    throw UserError(settings.place("wind"),
+                    fmt::format("'wind' is a speed from 0.01 to 100 m/s, not {:g}: write 0.1 for calm air", wind));
+}
+
 SceneAir SceneAir::read(const Settings& settings) {
     SceneAir air;
     air.temperature = settings.number_or("temperature", air.temperature, Range::between(-40, 60));
     air.humidity = read_humidity(settings, air.humidity);
-    air.wind = settings.number_or("wind", air.wind, Range::between(0.01, 100));
+    air.wind = read_wind(settings, air.wind);
     air.carbon_dioxide = read_carbon_dioxide(settings, air.carbon_dioxide);
     if (settings.has("pressure") && settings.has("height")) {
         throw UserError(settings.place("height"), "give either 'height' above the sea or 'pressure'");

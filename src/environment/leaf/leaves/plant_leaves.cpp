@@ -14,7 +14,7 @@ constexpr std::uint32_t no_row = ~0U;
 
 }  // namespace
 
-void PlantLeaves::add(std::uint32_t module, std::uint16_t kind, double leaf_area) {
+void PlantLeaves::add(std::uint32_t module, std::uint16_t kind, float leaf_area) {
     modules.push_back(module);
     kinds.push_back(kind);
     area.push_back(leaf_area);
@@ -70,6 +70,10 @@ std::vector<LeafChunk> chunks_of(std::span<const PlantLeaves> all, std::span<con
     return chunks;
 }
 
+// What is solved of a row, behind the states of a leaf.
+constexpr std::size_t sent_column = leaf_states, slope_column = leaf_states + 1, residual_column = leaf_states + 2;
+constexpr std::size_t solved_columns = leaf_states + 3;
+
 /// What is solved for a chunk: up to three rows a leaf.
 class LeafSolver::Rows {
 public:
@@ -93,31 +97,56 @@ public:
     }
 
     void solve(const LeafKind& kind, const Air& air) {
-        const std::size_t count = in_[0].size();
-        for (auto& column : out_) column.resize(count);
+        for (auto& column : out_) column.resize(in_[0].size());
         const auto in = [&](std::size_t i) { return in_[i].data(); };
         const auto out = [&](std::size_t i) { return out_[i].data(); };
         leaf::solve(kind, air,
-                    {count, in(0), in(1), in(2), in(3), in(4), in(5), in(6), in(7), in(8), out(0), out(1), out(2),
-                     out(3), out(4), out(5), out(6), asked_.by_potential ? out(7) : nullptr, out(8)});
+                    {in_[0].size(), in(0), in(1), in(2), in(3), in(4), in(5), in(6), in(7), in(8), out(assimilation),
+                     out(transpiration), out(conductance), out(temperature), out(internal), out(deficit),
+                     out(sent_column), asked_.by_potential ? out(slope_column) : nullptr, out(residual_column)});
     }
 
-    double state(std::size_t of, std::uint32_t row) const { return out_[of][row]; }
-    double sent(std::uint32_t row) const { return out_[6][row]; }
-    double by_potential(std::uint32_t row) const { return asked_.by_potential ? out_[7][row] : 0; }
-    double residual(std::uint32_t row) const { return out_[8][row]; }
+    double operator()(std::size_t column, std::uint32_t row) const { return out_[column][row]; }
 
 private:
     Asked asked_;
-    std::array<std::vector<double>, 9> in_, out_;
+    std::array<std::vector<double>, 9> in_;
+    std::array<std::vector<double>, solved_columns> out_;
+};
+
+/// The rows of a leaf: in the sun's own light and out of it, and in the dark.
+struct LeafSolver::Parts {
+    std::uint32_t sun = no_row, shade = no_row, dark = no_row;
+    double sunlit = 0, lit = 0;
+
+    double in_the_dark(const Rows& rows, const UsualRow& usual, std::size_t column) const {
+        return dark == no_row ? usual[column] : rows(column, dark);
+    }
+    /// While there is light, or in the dark where there is none.
+    double now(const Rows& rows, const UsualRow& usual, std::size_t column) const {
+        if (shade == no_row) return in_the_dark(rows, usual, column);
+        const double shaded = rows(column, shade);
+        return sun == no_row ? shaded : shaded + sunlit * (rows(column, sun) - shaded);
+    }
+    double over_step(const Rows& rows, const UsualRow& usual, std::size_t column) const {
+        return lit * now(rows, usual, column) + (1 - lit) * in_the_dark(rows, usual, column);
+    }
+    double residual(const Rows& rows, const UsualRow& usual) const {
+        double largest = in_the_dark(rows, usual, residual_column);
+        for (const std::uint32_t part : {sun, shade}) {
+            if (part != no_row) largest = std::max(largest, rows(residual_column, part));
+        }
+        return largest;
+    }
 };
 
 LeafSolver::LeafSolver(const LeafKinds& kinds, const Air& air, double thermal)
     : kinds_(kinds), air_(air), thermal_(thermal) {
     const LeafLight dark{0, 0, thermal};
     for (std::size_t k = 0; k < kinds.size(); ++k) {
-        unlit_.push_back(gas_exchange(kinds[k], dark, air));
-        residual_in_the_dark_.push_back(residuals_of(unlit_.back(), kinds[k], dark, air).largest());
+        const GasExchange unlit = gas_exchange(kinds[k], dark, air);
+        unlit_.push_back({unlit.assimilation, unlit.transpiration, unlit.conductance, unlit.temperature, unlit.internal,
+                          unlit.deficit, unlit.sent, 0, residuals_of(unlit, kinds[k], dark, air).largest()});
     }
 }
 
@@ -127,66 +156,43 @@ bool LeafSolver::is_usual_in_the_dark(const PlantLeaves& leaves, std::size_t row
            leaves.potential[row] >= kinds_[leaves.kinds[row]].stomata.dry;
 }
 
-void LeafSolver::solve(std::span<PlantLeaves> plants, const LeafChunk& chunk, const Asked& asked) const {
-    struct Parts {
-        std::uint32_t sun = no_row, shade = no_row, dark = no_row;
-    };
-    const LeafKind& kind = kinds_[chunk.kind];
-    Rows rows(3 * chunk.rows.size(), asked);
-    std::vector<Parts> parts(chunk.rows.size());
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const auto [plant, row] = chunk.rows[i];
-        const PlantLeaves& leaves = plants[plant];
-        const double thermal = leaves.thermal.empty() ? thermal_ : leaves.thermal[row];
-        if (leaves.shade_photons[row] > 0 || leaves.sunlit[row] > 0) {
-            parts[i].shade =
-                rows.add(kind, leaves, row, {leaves.shade_photons[row], leaves.shade_near_infrared[row], thermal});
-        }
-        if (leaves.sunlit[row] > 0) {
-            parts[i].sun =
-                rows.add(kind, leaves, row, {leaves.sun_photons[row], leaves.sun_near_infrared[row], thermal});
-        }
-        if (leaves.lit[row] >= 1 && parts[i].shade != no_row) continue;
-        if (!is_usual_in_the_dark(leaves, row)) parts[i].dark = rows.add(kind, leaves, row, {0, 0, thermal});
+LeafSolver::Parts LeafSolver::add_leaf(Rows& rows, const PlantLeaves& leaves, std::size_t row) const {
+    const LeafKind& kind = kinds_[leaves.kinds[row]];
+    const double thermal = leaves.thermal.empty() ? thermal_ : leaves.thermal[row];
+    Parts parts;
+    parts.sunlit = leaves.sunlit[row];
+    parts.lit = leaves.lit[row];
+    if (leaves.shade_photons[row] > 0 || parts.sunlit > 0) {
+        parts.shade =
+            rows.add(kind, leaves, row, {leaves.shade_photons[row], leaves.shade_near_infrared[row], thermal});
     }
-    rows.solve(kind, air_);
-    const GasExchange& unlit = unlit_[chunk.kind];
-    const double usual[] = {unlit.assimilation, unlit.transpiration, unlit.conductance,
-                            unlit.temperature,  unlit.internal,      unlit.deficit};
+    if (parts.sunlit > 0) {
+        parts.sun = rows.add(kind, leaves, row, {leaves.sun_photons[row], leaves.sun_near_infrared[row], thermal});
+    }
+    const bool is_lit_all_the_time = parts.lit >= 1 && parts.shade != no_row;
+    if (!is_lit_all_the_time && !is_usual_in_the_dark(leaves, row)) {
+        parts.dark = rows.add(kind, leaves, row, {0, 0, thermal});
+    }
+    return parts;
+}
+
+void LeafSolver::solve(std::span<PlantLeaves> plants, const LeafChunk& chunk, const Asked& asked) const {
+    Rows rows(3 * chunk.rows.size(), asked);
+    std::vector<Parts> parts;
+    for (const auto& [plant, row] : chunk.rows) parts.push_back(add_leaf(rows, plants[plant], row));
+    rows.solve(kinds_[chunk.kind], air_);
+    const UsualRow& usual = unlit_[chunk.kind];
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const auto [plant, row] = chunk.rows[i];
-        const auto& [sun, shade, dark] = parts[i];
         PlantLeaves& leaves = plants[plant];
-        const double sunlit = leaves.sunlit[row], lit = leaves.lit[row];
-        const auto mean = [&, sun = sun, shade = shade](double in_the_dark, const auto& of) {
-            if (shade == no_row) return in_the_dark;
-            return sun == no_row ? of(shade) : of(shade) + sunlit * (of(sun) - of(shade));
-        };
-        double over_step[leaf_states];
-        for (std::size_t s = 0; s < leaf_states; ++s) {
-            const double unlit_value = dark == no_row ? usual[s] : rows.state(s, dark);
-            leaves.state[s][row] = mean(unlit_value, [&](std::uint32_t at) { return rows.state(s, at); });
-            over_step[s] = lit * leaves.state[s][row] + (1 - lit) * unlit_value;
-        }
-        leaves.gain_rate[row] = 1e-6 * seconds_per_day * leaves.area[row] * over_step[assimilation];
-        leaves.water_rate[row] = cm3_of_mole * seconds_per_day * leaves.area[row] * over_step[transpiration];
-        double residual = dark == no_row ? residual_in_the_dark_[chunk.kind] : rows.residual(dark);
-        for (const std::uint32_t part : {sun, shade}) {
-            if (part != no_row) residual = std::max(residual, rows.residual(part));
-        }
-        leaves.residual[row] = static_cast<float>(residual);
-        const auto step_mean = [&](double unlit_value, const auto& of) {
-            return lit * mean(unlit_value, of) + (1 - lit) * unlit_value;
-        };
-        if (asked.by_potential) {
-            leaves.by_potential[row] = leaves.area[row] * cm3_of_mole * seconds_per_day *
-                                       step_mean(dark == no_row ? 0 : rows.by_potential(dark),
-                                                 [&](std::uint32_t at) { return rows.by_potential(at); });
-        }
-        if (asked.sent) {
-            leaves.sent[row] = step_mean(dark == no_row ? unlit.sent : rows.sent(dark),
-                                         [&](std::uint32_t at) { return rows.sent(at); });
-        }
+        const double area = leaves.area[row], water = cm3_of_mole * seconds_per_day * area;
+        for (std::size_t s = 0; s < leaf_states; ++s) leaves.state[s][row] = parts[i].now(rows, usual, s);
+        const auto over_step = [&](std::size_t column) { return parts[i].over_step(rows, usual, column); };
+        leaves.gain_rate[row] = 1e-6 * seconds_per_day * area * over_step(assimilation);
+        leaves.water_rate[row] = water * over_step(transpiration);
+        leaves.residual[row] = static_cast<float>(parts[i].residual(rows, usual));
+        if (asked.by_potential) leaves.by_potential[row] = static_cast<float>(water * over_step(slope_column));
+        if (asked.sent) leaves.sent[row] = over_step(sent_column);
     }
 }
 

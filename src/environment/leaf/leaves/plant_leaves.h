@@ -14,12 +14,12 @@ namespace espalier::environment::leaf {
 enum LeafState { assimilation, transpiration, conductance, temperature, internal, deficit };
 inline constexpr std::size_t leaf_states = 6;
 
-/// Rows are leaves in the order of their modules. Some 150 bytes each, see bench/leaf.bench.cpp.
+/// Rows are leaves in the order of their modules. 120 to 200 bytes each, see bench/leaf.bench.cpp.
 struct PlantLeaves {
     std::size_t modules_in_string = 0;
     std::vector<std::uint32_t> modules;
     std::vector<std::uint16_t> kinds;
-    std::vector<double> area;  ///< m2
+    std::vector<float> area;  ///< m2
     // A part in the sun's own light and a part without it (de Pury & Farquhar 1997): photosynthesis is not linear.
     std::vector<float> lit;                                     ///< share of the step in which there is light
     std::vector<float> sunlit;                                  ///< share of the area
@@ -31,14 +31,14 @@ struct PlantLeaves {
     std::vector<double> potential;  ///< MPa
     std::array<std::vector<double>, leaf_states> state;
     std::vector<double> gain_rate, water_rate;  ///< net CO2, mol/d; cm3/d
-    std::vector<double> by_potential;           ///< of the water's rate, cm3/d/MPa; where it is asked for
+    std::vector<float> by_potential;            ///< of the water's rate, cm3/d/MPa; where it is asked for
     std::vector<double> sent;                   ///< thermal radiation of both sides, W m-2; where it is asked for
     std::vector<float> residual;                ///< the largest
     std::vector<double> gain, water;            ///< of the step: net CO2, mol; cm3
 
     std::size_t size() const { return modules.size(); }
     void clear() { *this = {}; }
-    void add(std::uint32_t module, std::uint16_t kind, double leaf_area);
+    void add(std::uint32_t module, std::uint16_t kind, float leaf_area);
     /// Makes room for what is solved; all leaves have this potential.
     void begin(double with_potential);
     /// The row of a module's leaf; size(): it has none.
@@ -72,18 +72,18 @@ public:
     };
     /// Of all leaves of a chunk, in their light, at their potentials.
     void solve(std::span<PlantLeaves> plants, const LeafChunk& chunk, const Asked& asked) const;
-    /// A leaf of the kind in the dark that has not dried.
-    const GasExchange& unlit(std::size_t kind) const { return unlit_[kind]; }
 
 private:
     class Rows;
+    struct Parts;
+    using UsualRow = std::array<double, leaf_states + 3>;
+    Parts add_leaf(Rows& rows, const PlantLeaves& leaves, std::size_t row) const;
     bool is_usual_in_the_dark(const PlantLeaves& leaves, std::size_t row) const;
 
     const LeafKinds& kinds_;
     Air air_;
     double thermal_;
-    std::vector<GasExchange> unlit_;  ///< by kind
-    std::vector<double> residual_in_the_dark_;
+    std::vector<UsualRow> unlit_;  ///< of each kind in the dark, not dried: as the rows that are solved
 };
 
 }  // namespace espalier::environment::leaf

@@ -49,7 +49,7 @@ void draw_layer(PlantGeometry& geometry, std::uint32_t module, double floor, dou
 }
 
 /// Leaves of two modules that send as black bodies of these temperatures.
-leaf::PlantLeaves sending_leaves(double area, const std::vector<double>& temperatures) {
+leaf::PlantLeaves sending_leaves(float area, const std::vector<double>& temperatures) {
     leaf::PlantLeaves leaves;
     leaves.modules_in_string = temperatures.size();
     for (std::uint32_t module = 0; module < temperatures.size(); ++module) leaves.add(module, 0, area);
@@ -71,7 +71,7 @@ TEST_CASE("two large parallel layers of leaves meet what sky, soil and each othe
         const Settings table =
             Settings::parse_toml("voxel = 0.5\nperiodic = true\nsoil_emissivity = 1\n", "waves.toml");
         leaf::CanopyWaves waves(table, context_of(1));
-        std::vector<leaf::PlantLeaves> leaves{sending_leaves(4 * index, {31, 16})};
+        std::vector<leaf::PlantLeaves> leaves{sending_leaves(float(4 * index), {31, 16})};
         const PlantView view{0, nullptr, nullptr, &plants.interpretation(0)};
         waves.lay({1, 1, 1, std::span(&view, 1)}, leaves);
         const leaf::WavesAround around{290, 20, 24, 1};
