@@ -135,13 +135,13 @@ BENCHMARK(memory_of_a_leaf)->UseRealTime();
 
 /// A stem with 1,000 leaves, and 10,000 pieces of root in 32^3 voxels.
 AskingPlants one_large_plant() {
-    constexpr std::uint32_t internodes = 100, leaves_of_plant = 1000, roots = 5000;
+    constexpr std::uint32_t internodes = 100, leaves_of_plant = 1000, taproot = 60, laterals = 780;
     AskingPlants plants;
-    plants.add(std::vector<Asked>(internodes + leaves_of_plant + roots, Asked{{0, 0, 0}, {0}}));
+    plants.add(std::vector<Asked>(internodes + leaves_of_plant + taproot + laterals, Asked{{0, 0, 0}, {0}}));
     PlantGeometry& geometry = plants.interpretation(0).geometry;
     const auto stand = [&](std::uint32_t module, std::uint32_t axis, const glm::dvec3& from, const glm::dvec3& to,
                            double radius) {
-        geometry.internodes.push_back({module, module, 0, 0, axis, from, to, radius, radius});
+        geometry.internodes.push_back({module, axis, 0, 0, 0, from, to, radius, radius});
     };
     for (std::uint32_t i = 0; i < internodes; ++i) {
         stand(i, 0, {0, 0.01 * i, 0}, {0, 0.01 * (i + 1), 0}, 0.01);
@@ -158,12 +158,16 @@ AskingPlants one_large_plant() {
         }
         geometry.polygons.push_back(polygon);
     }
-    for (std::uint32_t k = 0; k < roots; ++k) {
-        const double turn = 2.4 * k, depth = -0.6 * double(k) / roots;
-        const glm::dvec3 from(0, depth, 0), to(0.25 * std::cos(turn), depth - 0.02, 0.25 * std::sin(turn));
-        stand(internodes + leaves_of_plant + k, 1 + k, from, to, 5e-4);
+    const std::uint32_t first_root = internodes + leaves_of_plant;
+    for (std::uint32_t i = 0; i < taproot; ++i) {
+        stand(first_root + i, 1, {0, -0.01 * i, 0}, {0, -0.01 * (i + 1), 0}, 0.005);
     }
-    geometry.axes = 1 + roots;
+    for (std::uint32_t k = 0; k < laterals; ++k) {
+        const double turn = 2.4 * k, depth = -0.01 * (k % taproot + 1);
+        stand(first_root + taproot + k, 2 + k, {0, depth, 0},
+              {0.25 * std::cos(turn), depth - 0.02, 0.25 * std::sin(turn)}, 5e-4);
+    }
+    geometry.axes = 2 + laterals;
     return plants;
 }
 
@@ -172,7 +176,7 @@ const std::string of_light =
 const std::string of_soil =
     "[water]\nprocess = \"soil-water\"\nmodel = \"richards\"\ndomain = { lower = [-0.32, -0.64, -0.32], upper = "
     "[0.32, 0, 0.32] }\nvoxel = 0.02\nsoil = \"loam\"\ninitial = { head = -300 }\ndays = 0.0416666666666667\n";
-const std::string of_roots = "[roots]\nprocess = \"root-water\"\nradial = 5e-4\naxial = 5\n";
+const std::string of_roots = "[roots]\nprocess = \"root-water\"\nradial = 5e-3\naxial = 50\n";
 const std::string of_leaves =
     "[leaves]\nprocess = \"leaf-exchange\"\nlight = \"light\"\nsf = 4\npsi_f = -1\ndays = 0.0416666666666667\n";
 
@@ -181,6 +185,7 @@ void hours_of(AskingPlants& plants, const std::string& tables) {
     context.domain = Box{{-0.32, 0, -0.32}, {0.32, 1.2, 0.32}};
     context.plants = 1;
     environment::Environment environment = environment_of(tables, context);
+    environment.keep_unanswered();
     for (int hour = 0; hour <= samples; ++hour) plants.exchange(environment, hour);
     benchmark::DoNotOptimize(environment.statistic("leaves.water", 0));
 }
