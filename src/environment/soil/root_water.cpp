@@ -19,6 +19,7 @@
 #include <cmath>
 #include <istream>
 #include <limits>
+#include <map>
 #include <ostream>
 #include <utility>
 
@@ -192,6 +193,25 @@ public:
                 by_head[roots.cells[i]] += plant.water().by_head[i] / volume;
             }
         }
+    }
+
+    std::vector<JointUptake> joint() const override {
+        const double volume = shared_.layout().volume();
+        std::vector<JointUptake> all;
+        std::vector<double> by_collar;
+        for (const PlantUptake& plant : roots_) {
+            JointUptake joint;
+            if (!plant.answer_together(by_collar, joint.collar)) continue;
+            joint.collar /= volume;
+            std::map<std::size_t, double> by_cell;
+            for (std::size_t i = 0; i < by_collar.size(); ++i) {
+                const std::size_t cell = plant.roots().cells[i];
+                if (cell != PlantRoots::no_cell) by_cell[cell] += by_collar[i] / volume;
+            }
+            joint.cells.assign(by_cell.begin(), by_cell.end());
+            all.push_back(std::move(joint));
+        }
+        return all;
     }
 
     void accept(double days, double weight) override {

@@ -77,6 +77,11 @@ void SoilLinearSystem::multiply(const std::array<FaceFluxes, 3>& fluxes, WaterBr
             product[c] = sum;
         }
     });
+    for (const RankOne& one : less) {
+        double along = 0;
+        for (const auto& [c, u] : one.u) along += u * v[c];
+        for (const auto& [c, u] : one.u) product[c] -= one.factor * along * u;
+    }
 }
 
 double SoilLinearSystem::dot(const WaterBrick& a, const WaterBrick& b) {

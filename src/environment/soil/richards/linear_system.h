@@ -13,6 +13,12 @@ public:
     explicit SoilLinearSystem(const SoilLayout& layout);
 
     WaterBrick diagonal;
+    /// J lacks factor u u^T for each of these.
+    struct RankOne {
+        std::vector<std::pair<std::size_t, double>> u;  ///< of some cells
+        double factor = 0;
+    };
+    std::vector<RankOne> less;
     /// Solves to a residual of `tolerance` times that of x = 0; returns the iterations, or -1 if it did not come so
     /// far.
     int solve(const std::array<FaceFluxes, 3>& fluxes, const WaterBrick& b, double tolerance, WaterBrick& x);
