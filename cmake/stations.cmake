@@ -12,14 +12,17 @@ set_source_files_properties(src/environment/soil/linear/steady.cpp src/analysis/
 compile_with("-fno-math-errno;-fno-trapping-math"
   src/environment/light/shade/ball_shadows.cpp src/environment/light/shade/balls_along.cpp)
 
-# Functions of columns for each width of vectors (src/base/math_lanes.h): compiled alone, each for its processors.
-set(wide_math src/base/math_columns_256.cpp src/base/math_columns_512.cpp)
-set_source_files_properties(${wide_math} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$" AND NOT WIN32)  # GCC for Windows does not align its stack
-  set_source_files_properties(src/base/math_columns_256.cpp PROPERTIES COMPILE_OPTIONS -mavx2)
-  set_source_files_properties(src/base/math_columns_512.cpp PROPERTIES COMPILE_OPTIONS -mavx512f)
-  set_source_files_properties(src/base/math_columns.cpp PROPERTIES COMPILE_DEFINITIONS ESPALIER_WIDE_MATH)
-endif()
+# Functions of columns, and leaves side by side, for each width of vectors (src/base/math_lanes.h,
+# src/environment/leaf/gas/lanes.h): compiled alone, each for its processors.
+foreach(name src/base/math_columns src/environment/leaf/gas/leaf_columns)
+  set_source_files_properties(${name}_256.cpp ${name}_512.cpp
+    PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$" AND NOT WIN32)  # GCC for Windows does not align its stack
+    set_source_files_properties(${name}_256.cpp PROPERTIES COMPILE_OPTIONS -mavx2)
+    set_source_files_properties(${name}_512.cpp PROPERTIES COMPILE_OPTIONS -mavx512f)
+    set_source_files_properties(${name}.cpp PROPERTIES COMPILE_DEFINITIONS ESPALIER_WIDE_MATH)
+  endif()
+endforeach()
 
 function(add_objects name)
   add_library(${name} OBJECT ${ARGN})

@@ -228,7 +228,21 @@ with_palette view.png
 "$espalier" plot "$work/drought-deep" "$work/drought-shallow" --quantity roots.transpiration,roots.depth \
     --output "$pictures/drought-plot.png"
 "$espalier" plot "$work/leaf-day" --quantity leaves.gain,leaves.transpiration,leaves.temperature --output "$pictures/leaf-day.png"
+grow leaf-co2 docs/examples/one-leaf.toml
+grow leaf-warm docs/examples/one-leaf.toml --set 'keyframes.0.key="environment.leaf.temperature"' \
+    --set 'keyframes.0.times=[1,30]' --set 'keyframes.0.values=[5,45]'
+for rises in co2:internal warm:temperature; do
+    "$espalier" plot "$work/leaf-${rises%:*}" --against "leaf.${rises#*:}" --quantity leaf.assimilation,leaf.conductance \
+        --output "$pictures/leaf-${rises%:*}.png"
+done
+"$espalier" sweep docs/examples/one-leaf.toml --vary environment.light.sky.par=20:2000:34 --steps 1 \
+    --set 'keyframes.0.values=[400,400,400]' \
+    --statistic leaf.assimilation,leaf.temperature --output "$work/leaf-light" --plot "$pictures/leaf-light.png" --quiet
 grow drought-stand-5 environments/drought-stand.toml --seed 5
+"$espalier" render "$work/drought-stand-5" --colour-by roots.plc --step 6:546:12 --size 260x300 --no-ground --rate 9 --time \
+    --output "$pictures/drought-stand.gif" --quiet
+"$espalier" render "$work/season" --colour-by leaves.assimilation --size 260x360 --rate 4 --time --azimuth 30 --elevation 8 --no-ground \
+    --output "$pictures/season.gif" --quiet
 "$espalier" plot "$work/drought-stand-5" --quantity leaves.potential,roots.transpiration,roots.plc,carbon.structure \
     --output "$pictures/drought-stand.png"
 "$espalier" render "$work/drought-stand-5" --step 390 --colour-by roots.plc --output "$pictures/drought-stand-plc.png" --size 500x500 --quiet

@@ -74,6 +74,7 @@ export class PickPanel {
       ),
       this.facts(picked),
       this.parameters(picked),
+      this.day(picked),
       this.history(picked),
       this.places(picked.places),
       this.kin(picked),
@@ -137,6 +138,27 @@ export class PickPanel {
       });
       section.append(place);
     }
+    return section;
+  }
+
+  /** What processes know of it, hour by hour. */
+  private day(picked: Picked): HTMLElement | null {
+    const { day } = picked;
+    if (!day || day.steps.length < 3) return null;
+    const section = h("section", "day", {}, h("h3", "", {}, "Course of the day, in hours"));
+    day.names.forEach((name, index) => {
+      const unit = day.units[index];
+      const label = unit ? `${name}, ${unit}` : name;
+      const place = h("div", "small-chart", { role: "img", "aria-label": `${name} by hour` }, h("span", "", {}, label));
+      plotOverSteps(place, day.hours, [{ name, values: day.values[index] ?? [], colour: index }], {
+        width: Math.max(180, this.element.clientWidth - 24),
+        height: 84,
+        small: true,
+        step: () => day.hours[day.steps.indexOf(this.step)] ?? Number.NaN,
+        clicked: (hour) => this.timeline.goTo(day.steps[day.hours.indexOf(hour)] ?? this.step),
+      });
+      section.append(place);
+    });
     return section;
   }
 

@@ -358,6 +358,8 @@ export interface Picked {
   children?: number;
   /** its parameters since its birth. */
   history?: History;
+  /** the course of its day, where steps are shorter than a quarter of one. */
+  day?: Day;
   /** the productions that may have made it. */
   places?: Place[];
   /** modules of this step that were born with it. */
@@ -384,6 +386,20 @@ export interface History {
   steps: number[];
   /** a row for each step; null if a value is not known. */
   parameters: ((number | null)[])[];
+}
+
+/** what processes know of a module within the day of the step. */
+export interface Day {
+  /** steps of the day in which there was the module. */
+  steps: number[];
+  /** since the midnight before, at the end of each step. */
+  hours: number[];
+  /** what is known, such as leaves.assimilation. */
+  names: string[];
+  /** of each; empty: none is known. */
+  units: string[];
+  /** a row for each name, a value for each step; null where there is none. */
+  values: ((number | null)[])[];
 }
 
 /** a place in a text. */

@@ -402,6 +402,33 @@ function contrasts({ theme, pairs }) {
   return ratios;
 }
 
+test("a leaf shows the course of its day, and a click on a curve goes to that hour", async () => {
+  await page.getByRole("button", { name: "Gallery", exact: true }).click();
+  await page.locator(".gallery .search").fill("leaf-day");
+  await page.locator('.card[title*="leaf-day"]').first().click();
+  await page.waitForFunction(() => document.title.includes("leaf-day"));
+  await grown();
+  await page.getByLabel("Step", { exact: true }).fill("26");
+  await shows(26);
+  const box = await canvas().boundingBox();
+  search: for (let y = 0.15; y < 0.6; y += 0.02) {
+    for (const x of [0.5, 0.53, 0.47, 0.56, 0.44]) {
+      await page.mouse.click(box.x + box.width * x, box.y + box.height * y);
+      await answered(page);
+      if ((await page.locator(".pick-head code").allTextContents()).includes("L")) break search;
+    }
+  }
+  await page.waitForSelector(".pick .day");
+  for (const name of ["light.flux", "leaves.assimilation", "leaves.transpiration", "leaves.conductance", "leaves.temperature"]) {
+    assert.equal(await page.locator(`.day [aria-label="${name} by hour"] canvas`).count(), 1, name);
+  }
+  assert.match(await page.locator(".day").textContent(), /leaves\.assimilation, umol m-2 s-1/);
+  await shot(page, "day");
+  const curve = page.locator('.day [aria-label="leaves.assimilation by hour"] .u-over');
+  await curve.click({ position: { x: 5, y: 20 } });
+  await page.waitForFunction(() => Number(document.querySelector(".viewport").dataset.step) < 5);
+});
+
 test("the work is found again after the program was killed in the middle of a growth", async () => {
   await page.getByRole("button", { name: "Gallery", exact: true }).click();
   await page.getByRole("tab", { name: "My files" }).click();

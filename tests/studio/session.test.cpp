@@ -151,6 +151,81 @@ TEST_CASE("a module tells who it is, who bore it and which production made it", 
         studio.ask({{"do", "pick"}, {"growth", growth["growth"]}, {"step", 4}, {"module", 100000}}).contains("error"));
 }
 
+namespace {
+
+std::string breathing_scene(const std::string& dt) {
+    return "[simulation]\nsteps = 20\ndt = " + dt + R"(
+time_unit = "day"
+[[plant]]
+model = "leaf.l"
+[environment.light]
+process = "canopy-light"
+voxel = 0.5
+sky = { par = 900, diffuse = 0.5, sun = [0, 1, 0] }
+[environment.leaves]
+process = "leaf-exchange"
+light = "light"
+[[keyframes]]
+key = "environment.leaves.temperature"
+times = [0, 0.5, 1, 1.5, 2]
+values = [10, 30, 10, 20, 10]
+[timeline]
+organs = ["leaves.temperature"]
+)";
+}
+
+const char* const one_leaf_on_a_stem = R"(lsystem: 1
+derivation length: 20
+axiom: F(1)L
+L --> L
+homomorphism
+L --> { . +(60) f(0.1) . -(120) f(0.1) . }
+endlsystem
+)";
+
+}  // namespace
+
+TEST_CASE("a leaf tells the course of the day of the step", "[studio]") {
+    OpenStudio studio(breathing_scene("0.125"), "scene.toml");
+    studio.folder.write("leaf.l", one_leaf_on_a_stem);
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    const Json growth = page.last("growth")["growth"];
+    const auto day_of = [&](int step) {
+        return studio.ask({{"do", "pick"}, {"growth", growth}, {"step", step}, {"module", 1}})["day"];
+    };
+    const Json first = day_of(3), second = day_of(12);
+    CHECK(first["steps"] == Json({1, 2, 3, 4, 5, 6, 7, 8}));
+    CHECK(first["hours"] == Json({3, 6, 9, 12, 15, 18, 21, 24}));
+    CHECK(second["steps"] == Json({9, 10, 11, 12, 13, 14, 15, 16}));
+    CHECK(second["hours"] == first["hours"]);
+    CHECK(day_of(20)["steps"] == Json({17, 18, 19, 20}));
+    CHECK(day_of(0)["steps"] == first["steps"]);
+    REQUIRE(first["names"] == Json({"light.absorbed", "leaves.assimilation", "leaves.temperature"}));
+    CHECK(first["units"][2] == "degC");
+    // At noon of the first day the air has 30 degrees, of the second 20, and at midnight 10.
+    const auto temperature = [](const Json& day, int at) { return day["values"][2][at].get<double>(); };
+    CHECK(temperature(first, 3) > temperature(first, 7) + 12);
+    CHECK(temperature(first, 3) > temperature(second, 3) + 6);
+    studio.ask({{"do", "column"}, {"growth", growth}, {"step", 4}, {"name", "leaves.temperature"}});
+    const std::string& bytes = page.packets.back();
+    CHECK(number_at<float>(bytes, bytes.size() - 4) == temperature(first, 3));
+    // A stem has light, and no gas exchange.
+    CHECK(studio.ask({{"do", "pick"}, {"growth", growth}, {"step", 3}, {"module", 0}})["day"]["names"] ==
+          Json({"light.absorbed"}));
+}
+
+TEST_CASE("a day of few steps has no course", "[studio]") {
+    OpenStudio studio(breathing_scene("1"), "scene.toml");
+    studio.folder.write("leaf.l", one_leaf_on_a_stem);
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    const Json known =
+        studio.ask({{"do", "pick"}, {"growth", page.last("growth")["growth"]}, {"step", 3}, {"module", 1}});
+    CHECK(known["symbol"] == "L");
+    CHECK_FALSE(known.contains("day"));
+}
+
 TEST_CASE("modules can be coloured by their age", "[studio]") {
     OpenStudio studio(tree);
     ListeningPage& page = studio.begin();

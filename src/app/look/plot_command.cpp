@@ -77,11 +77,15 @@ public:
                 "--per", per_,
                 "one line per plant, per species (model), or in total; default: depends on the number of plants")
             ->check(CLI::IsMember({"plant", "species", "total"}));
+        app().add_option(
+            "--against", against_,
+            "a column of statistics.csv along the horizontal axis, such as leaves.internal; default: the time");
         app().add_option("--output", output_, "a .png or .svg; default: plot.png in the first run's folder");
         app().footer(R"(Examples:
   espalier plot output/two-trees
   espalier plot output/forest --quantity height,light.mean --per species --output light.svg
   espalier plot output/two-trees output/lone-tree --quantity organs --dark
+  espalier plot output/leaf --quantity leaves.assimilation --against leaves.internal
 `espalier info RUN` lists the quantities of a run. If a line stands for several plants, it shows the sum of counts, lengths and
 volumes, the greatest of heights and maxima, and the mean of everything else.)");
     }
@@ -99,6 +103,10 @@ volumes, the greatest of heights and maxima, and the mean of everything else.)")
             options.x = "time";
             options.titles["time"] = fmt::format("time ({})", unit);
         }
+        if (!against_.empty()) {
+            picture::require_quantity(tables, against_);
+            options.x = against_;
+        }
         const ChartPage page = chart_page(tables, options);
         const fs::path output = output_.empty() ? runs_.front() / "plot.png" : output_;
         write_picture(page, picture_.size(fitting_size(page)), output);
@@ -110,7 +118,7 @@ private:
     PictureOptions picture_;
     std::vector<fs::path> runs_;
     std::vector<std::string> quantities_;
-    std::string per_;
+    std::string per_, against_;
     fs::path output_;
 };
 

@@ -2,19 +2,26 @@
 #include "espalier/environment/environment.h"
 #include "espalier/environment/environment_process.h"
 
+#include "base/bytes.h"
 #include "base/parallel.h"
 #include "environment/exchange/changing_settings.h"
 #include "environment/exchange/measured_before.h"
+#include "environment/exchange/needed_field.h"
 #include "environment/given/weather/weather.h"
 #include "environment/leaf/gas/leaf_water.h"
-#include "environment/leaf/gas/penman_monteith.h"
-#include "environment/leaf/gas/settings.h"
+#include "environment/leaf/leaves/big_leaf.h"
+#include "environment/leaf/leaves/leaf_kinds.h"
+#include "environment/leaf/leaves/plant_leaves.h"
+#include "environment/leaf/leaves/units.h"
+#include "environment/leaf/waves/canopy_waves.h"
+#include "geometry/drawn/faces.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <set>
 
 namespace espalier::environment {
@@ -22,26 +29,9 @@ namespace {
 
 using namespace leaf;
 
-constexpr double seconds_per_day = 86400;
-constexpr double least_part = 1e-3;                                      ///< of a leaf, which is not divided below
-constexpr double cm3_of_mole = 1000 * water_molar_mass / water_density;  ///< of water
+constexpr float least_part = 1e-3F;  ///< of a leaf, which is not divided below
 
 using Values = std::shared_ptr<const std::vector<float>>;
-
-/// What one organ did in a step.
-struct LeafStep {
-    double area = 0;       ///< m2
-    double gain = 0;       ///< net CO2, mol
-    double water = 0;      ///< cm3
-    GasExchange lit;       ///< while there was light, or all the time in the dark
-    double potential = 0;  ///< MPa
-};
-
-/// What one organ does per day.
-struct LeafRates {
-    double gain = 0;   ///< net CO2, mol/d
-    double water = 0;  ///< cm3/d
-};
 
 /// A leaf's light, from the process that measures it.
 struct OrganLightValues {
@@ -49,88 +39,65 @@ struct OrganLightValues {
     Values sunlit, direct, direct_near_infrared;  ///< null where leaves are not divided
 };
 
-/// Parts of a leaf in the sun's own light and out of it (de Pury & Farquhar 1997): photosynthesis is not linear.
-struct LitParts {
-    double sunlit = 0;  ///< share of the area
-    LeafLight sun, shade;
-    double lit = 0;  ///< share of the step in which there is light
+/// What a leaf does per day: net CO2, mol, and water, cm3.
+struct LeafRates {
+    double gain = 0, water = 0;
 };
 
-/// The leaves of a plant during a step in which the water's way to them is solved.
-struct SuppliedLeaves {
+/// What a plant is during a step in which the water's way to its leaves is solved.
+struct SuppliedPlant {
     std::vector<DrawingLeaf> leaves;
-    std::vector<LitParts> light;       ///< by leaf
-    std::vector<LeafRates> now, mean;  ///< by leaf: at the last potentials, and over the last substep
-    std::vector<double> residuals;     ///< by leaf
-    bool is_supplied = false;          ///< in this step
-};
-
-/// A plant as one leaf: sums over its leaves of what they get, times their areas.
-struct BigLeaf {
-    double area = 0, photons = 0, near_infrared = 0, lit = 0;
-
-    void add(double leaf_area, const LitParts& light) {
-        const auto mean = [&](double LeafLight::*of) {
-            return light.shade.*of + light.sunlit * (light.sun.*of - light.shade.*of);
-        };
-        area += leaf_area;
-        photons += leaf_area * mean(&LeafLight::photons);
-        near_infrared += leaf_area * mean(&LeafLight::near_infrared);
-        lit += leaf_area * light.lit;
-    }
+    std::vector<LeafChunk> chunks;
+    std::vector<LeafRates> mean;  ///< by leaf, over the last substep
+    double residual = 0;
+    bool is_supplied = false;  ///< in this step
 };
 
 struct LeafQuantity {
     OrganQuantity told;
-    double (*of)(const LeafStep&);
+    double (*of)(const PlantLeaves&, std::size_t row);
 };
 
-const std::array<LeafQuantity, 9>& known() {
-    static const std::array<LeafQuantity, 9> all{
-        {{{"assimilation", "umol m-2 s-1", "net CO2 that leaves take, while there is light"},
-          [](const LeafStep& leaf) { return leaf.lit.assimilation; }},
+template <LeafState State>
+double state_of(const PlantLeaves& leaves, std::size_t row) {
+    return leaves.state[State][row];
+}
+
+/// The last where long waves are followed.
+const std::array<LeafQuantity, 10>& known() {
+    static const std::array<LeafQuantity, 10> all{
+        {{{"assimilation", "umol m-2 s-1", "net CO2 that leaves take, while there is light"}, state_of<assimilation>},
          {{"transpiration", "mmol m-2 s-1", "water that leaves give, while there is light"},
-          [](const LeafStep& leaf) { return 1000 * leaf.lit.transpiration; }},
-         {{"conductance", "mol m-2 s-1", "of stomata to water vapour"},
-          [](const LeafStep& leaf) { return leaf.lit.conductance; }},
-         {{"temperature", "degC", "of the leaf"}, [](const LeafStep& leaf) { return leaf.lit.temperature; }},
-         {{"internal", "umol/mol", "CO2 in the leaf"}, [](const LeafStep& leaf) { return leaf.lit.internal; }},
-         {{"deficit", "kPa", "of vapour pressure at the leaf's surface"},
-          [](const LeafStep& leaf) { return leaf.lit.deficit; }},
-         {{"potential", "MPa", "water potential of the leaf"}, [](const LeafStep& leaf) { return leaf.potential; }},
-         {{"gain", "mol", "net CO2 of the organ in the step"}, [](const LeafStep& leaf) { return leaf.gain; }},
+          [](const PlantLeaves& leaves, std::size_t row) { return 1000 * leaves.state[transpiration][row]; }},
+         {{"conductance", "mol m-2 s-1", "of stomata to water vapour"}, state_of<conductance>},
+         {{"temperature", "degC", "of the leaf"}, state_of<temperature>},
+         {{"internal", "umol/mol", "CO2 in the leaf"}, state_of<internal>},
+         {{"deficit", "kPa", "of vapour pressure at the leaf's surface"}, state_of<deficit>},
+         {{"potential", "MPa", "water potential of the leaf"},
+          [](const PlantLeaves& leaves, std::size_t row) { return leaves.potential[row]; }},
+         {{"gain", "mol", "net CO2 of the organ in the step"},
+          [](const PlantLeaves& leaves, std::size_t row) { return leaves.gain[row]; }},
          {{"water", "cm3", "water that the organ gives in the step"},
-          [](const LeafStep& leaf) { return leaf.water; }}}};
+          [](const PlantLeaves& leaves, std::size_t row) { return leaves.water[row]; }},
+         {{"thermal", "W m-2", "long waves that meet both sides together"},
+          [](const PlantLeaves& leaves, std::size_t row) {
+              return leaves.thermal.empty() ? std::nan("") : leaves.thermal[row];
+          }}}};
     return all;
 }
 
-/// Those of the table, and of its tables `kinds` for some plants.
-struct LeafKinds {
-    std::vector<LeafKind> kinds;
-    std::vector<std::size_t> of_plants;  ///< numbers of their kinds
-
-    LeafKinds(const Settings& settings, std::uint32_t plants)
-        : kinds{read_leaf_kind(settings)}, of_plants(std::max(plants, 1U), 0) {
-        for (const Settings& table : settings.tables("kinds")) {
-            for (const double plant : table.numbers("plants")) of_plants[number(table, plant, plants)] = kinds.size();
-            kinds.push_back(read_leaf_kind(table, kinds.front()));
-        }
-    }
-
-private:
-    static std::size_t number(const Settings& table, double plant, std::uint32_t plants) {
-        if (plant >= 0 && plant < plants && plant == std::floor(plant)) return static_cast<std::size_t>(plant);
-        throw UserError(table.place("plants"),
-                        fmt::format("there is no plant {:g}: they are numbered from 0 to {}, as in statistics.csv",
-                                    plant, static_cast<int>(plants) - 1));
-    }
-};
+std::string light_named_by(const Settings& settings) {
+    if (settings.has("light")) return settings.text("light");
+    throw UserError(settings.place(),
+                    "leaves need light: write light = \"light\", the name of a canopy-light or a ray-light that stands "
+                    "before them in the scene");
+}
 
 /// The process that brings water to leaves; null: their potential is given.
 LeafSupply* supply_of(const Settings& settings, const Fields& fields) {
     if (!settings.has("roots")) return nullptr;
     const std::string name = settings.text("roots");
-    auto* const supply = dynamic_cast<LeafSupply*>(fields.need(name).source);
+    auto* const supply = dynamic_cast<LeafSupply*>(needed_field(settings, "roots", name, fields, "root-water").source);
     if (!supply) {
         throw UserError(settings.place("roots"),
                         fmt::format("'{}' is not a root-water, which brings water to leaves", name));
@@ -147,9 +114,10 @@ class LeafExchange final : public EnvironmentProcess, public LeafWater {
 public:
     LeafExchange(Settings& settings, const EnvironmentContext& context, Fields& fields)
         : name_(context.name),
-          light_(settings.text("light")),
+          light_(light_named_by(settings)),
           light_place_(settings.place("light")),
           kinds_(settings, context.plants),
+          form_(settings, context.name),
           weather_(Weather::named_by(settings, "air", fields)),
           air_(SceneAir::read(settings)),
           near_infrared_(settings.number_or("nir", 0.25, Range::between(0, 10))),
@@ -159,23 +127,33 @@ public:
           supply_(supply_of(settings, fields)),
           compares_(settings.choice_or("canopy", "leaves", {"leaves", "big-leaf"}) == "big-leaf"),
           leaves_(context.plants),
-          big_(context.plants),
-          supplied_(supply_ ? context.plants : 0),
-          residuals_(context.plants, 0) {
+          supplied_(supply_ ? context.plants : 0) {
         if (supply_) supply_->attach(*this, name_);
         if (weather_) air_name_ = settings.text("air"), air_place_ = settings.place("air");
         for (const char* key : {"temperature", "humidity", "wind", "co2"}) {
             if (!weather_ || settings.has(key)) own_air_.insert(key);
         }
         has_own_pressure_ = settings.has("pressure") || settings.has("height");
+        read_long_waves(settings, context);
     }
 
     void advance(const WorldView& world, std::span<const Query>, Fields&) override {
         if (!world.environment) throw RunError("leaf-exchange works in a scene's exchange only");
         if (!supply_) begin_step(world);
-        for (const PlantView& plant : world.plants) {
-            if (plant.plant >= leaves_.size() || (supply_ && supplied_[plant.plant].is_supplied)) continue;
-            breathe(plant, *world.environment, world.step > 0);
+        std::vector<std::uint32_t> given;  // plants whose leaves have the potential that is given
+        for (std::uint32_t plant = 0; plant < leaves_.size(); ++plant) {
+            if (!supply_ || !supplied_[plant].is_supplied) given.push_back(plant);
+        }
+        const std::vector<LeafChunk> chunks = chunks_of(leaves_, given, kinds_.size());
+        for_in_parallel(std::size_t{0}, chunks.size(), [&](std::size_t i) { solver_->solve(leaves_, chunks[i], {}); });
+        if (world.step == 0) return;
+        const double days = seconds_ / seconds_per_day;
+        for (const std::uint32_t plant : given) {
+            PlantLeaves& leaves = leaves_[plant];
+            for (std::size_t row = 0; row < leaves.size(); ++row) {
+                leaves.gain[row] = leaves.gain_rate[row] * days;
+                leaves.water[row] = leaves.water_rate[row] * days;
+            }
         }
     }
 
@@ -184,23 +162,17 @@ public:
         find_light(*world.environment);
         seconds_ = world.dt * days_ * seconds_per_day;
         take_weather();
-        now_ = air_.air();
-        dark_ = {0, 0, air_.thermal_radiation()};
-        unlit_.clear();
-        residual_in_the_dark_ = 0;
-        for (const LeafKind& kind : kinds_.kinds) {
-            unlit_.push_back(gas_exchange(kind, dark_, now_, potential_));
-            residual_in_the_dark_ =
-                std::max(residual_in_the_dark_, residuals_of(unlit_.back(), kind, dark_, now_, potential_).largest());
+        solver_.emplace(kinds_, air_.air(), air_.thermal_radiation());
+        for (std::uint32_t plant = 0; plant < last_potentials_.size(); ++plant) {
+            last_potentials_[plant] = mean_of(leaves_[plant], leaves_[plant].potential, last_potentials_[plant]);
         }
-        for (std::vector<LeafStep>& plant : leaves_) plant.clear();
-        std::fill(residuals_.begin(), residuals_.end(), 0);
-        for (SuppliedLeaves& plant : supplied_) plant = {};
-        std::fill(big_.begin(), big_.end(), BigLeaf{});
-        if (!supply_) return;
+        for (PlantLeaves& plant : leaves_) plant.clear();
+        for (SuppliedPlant& plant : supplied_) plant = {};
         for (const PlantView& plant : world.plants) {
-            if (plant.plant < supplied_.size()) list_leaves(plant, *world.environment);
+            if (plant.plant < leaves_.size()) list_leaves(plant, *world.environment);
         }
+        for (std::uint32_t plant = 0; plant < supplied_.size(); ++plant) list_supplied(plant);
+        if (waves_) follow_long_waves(world);
     }
 
     std::span<const DrawingLeaf> leaves(std::uint32_t plant) const override {
@@ -209,77 +181,73 @@ public:
     }
 
     void lose(std::uint32_t plant, std::span<const double> potentials, std::span<LeafLoss> losses) override {
-        SuppliedLeaves& all = supplied_[plant];
-        all.is_supplied = true;
-        for_in_parallel(std::size_t{0}, all.leaves.size(), [&](std::size_t i) {
-            LeafStep& leaf = leaves_[plant][all.leaves[i].module];
-            leaf.potential = potentials[i];
-            const Solved found = solved(plant, all.light[i], leaf.potential);
-            const SlopingExchange dark = in_the_dark(plant, leaf.potential);
-            leaf.lit = found.leaf;
-            all.residuals[i] = found.residual;
-            all.now[i] = rates(leaf, all.light[i].lit, dark.leaf);
-            const double share = all.light[i].lit;
-            losses[i] = {all.now[i].water,
-                         leaf.area * cm3_of_mole * seconds_per_day *
-                             (share * found.by_potential + (1 - share) * dark.transpiration_by_potential)};
-        });
+        SuppliedPlant& supplied = supplied_[plant];
+        PlantLeaves& leaves = leaves_[plant];
+        supplied.is_supplied = true;
+        std::copy(potentials.begin(), potentials.end(), leaves.potential.begin());
+        constexpr std::size_t work_of_leaf = 500;
+        for_each_if_worth(supplied.chunks.size(), leaves.size() * work_of_leaf,
+                          [&](std::size_t i) { solver_->solve(leaves_, supplied.chunks[i], {.by_potential = true}); });
+        for (std::size_t row = 0; row < leaves.size(); ++row) {
+            losses[row] = {leaves.water_rate[row], leaves.by_potential[row]};
+        }
     }
 
     void pass(std::uint32_t plant, double days, double weight) override {
-        SuppliedLeaves& all = supplied_[plant];
-        for (std::size_t i = 0; i < all.leaves.size(); ++i) {
-            LeafStep& leaf = leaves_[plant][all.leaves[i].module];
-            for (double LeafRates::*const rate : {&LeafRates::gain, &LeafRates::water}) {
-                all.mean[i].*rate = weight * (all.now[i].*rate) + (1 - weight) * (all.mean[i].*rate);
-            }
-            leaf.gain += all.mean[i].gain * days;
-            leaf.water += all.mean[i].water * days;
-            residuals_[plant] = std::max({residuals_[plant], all.residuals[i], residual_in_the_dark_});
+        SuppliedPlant& supplied = supplied_[plant];
+        PlantLeaves& leaves = leaves_[plant];
+        for (std::size_t row = 0; row < leaves.size(); ++row) {
+            LeafRates& mean = supplied.mean[row];
+            mean.gain = weight * leaves.gain_rate[row] + (1 - weight) * mean.gain;
+            mean.water = weight * leaves.water_rate[row] + (1 - weight) * mean.water;
+            leaves.gain[row] += mean.gain * days;
+            leaves.water[row] += mean.water * days;
+            supplied.residual = std::max(supplied.residual, double(leaves.residual[row]));
         }
     }
 
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
         for (std::size_t i = 0; i < queries.size(); ++i) {
-            const LeafStep leaf = leaf_behind(queries[i]);
-            const double numbers[] = {leaf.gain,
-                                      leaf.water,
-                                      leaf.lit.assimilation,
-                                      1000 * leaf.lit.transpiration,
-                                      leaf.lit.conductance,
-                                      leaf.area > 0 ? leaf.lit.temperature : air_.temperature,
-                                      leaf.lit.internal,
-                                      leaf.potential};
-            std::copy_n(numbers, std::min(std::size(numbers), answers[i].size()), answers[i].begin());
+            const std::array<double, 8> numbers = told_of_leaf_behind(queries[i]);
+            for (std::size_t k = 0; k < std::min(answers[i].size(), form_.size()); ++k) {
+                if (form_.answer(k) >= 0) answers[i][k] = numbers[static_cast<std::size_t>(form_.answer(k))];
+            }
         }
     }
 
     std::vector<Quantity> statistics(std::uint32_t plant) const override {
-        LeafStep sum;
-        double warmth = 0, potential = 0;
-        for (const LeafStep& leaf : plant < leaves_.size() ? leaves_[plant] : std::vector<LeafStep>()) {
-            sum.area += leaf.area;
-            sum.gain += leaf.gain;
-            sum.water += leaf.water;
-            if (leaf.area > 0) warmth += leaf.area * leaf.lit.temperature, potential += leaf.area * leaf.potential;
+        static const PlantLeaves no_leaves;
+        const PlantLeaves& leaves = plant < leaves_.size() ? leaves_[plant] : no_leaves;
+        double area = 0, gain = 0, water = 0, residual = 0;
+        for (std::size_t row = 0; row < leaves.size(); ++row) {
+            area += leaves.area[row];
+            gain += leaves.gain[row];
+            water += leaves.water[row];
+            residual = std::max(residual, double(leaves.residual[row]));
         }
-        const double none = std::nan(""), days = seconds_ / seconds_per_day;
-        const double moles = sum.water / cm3_of_mole;
-        std::vector<Quantity> all{{"gain", sum.gain, "mol"},
-                                  {"water", sum.water, "cm3"},
-                                  {"transpiration", days > 0 ? sum.water / days : 0, "cm3/d"},
-                                  {"efficiency", moles > 0 ? 1000 * sum.gain / moles : none, "mmol/mol"},
-                                  {"temperature", sum.area > 0 ? warmth / sum.area : none, "degC"},
-                                  {"potential", sum.area > 0 ? potential / sum.area : none, "MPa"},
-                                  {"leaf_area", sum.area, "m2"},
-                                  {"residual", plant < residuals_.size() ? residuals_[plant] : 0}};
-        if (compares_) compare(plant, all);
+        if (plant < supplied_.size()) residual = std::max(residual, supplied_[plant].residual);
+        const auto mean = [&](const auto& column) { return mean_of(leaves, column, std::nan("")); };
+        const double days = seconds_ / seconds_per_day, moles = water / cm3_of_mole;
+        std::vector<Quantity> all{{"gain", gain, "mol"},
+                                  {"water", water, "cm3"},
+                                  {"transpiration", days > 0 ? water / days : 0, "cm3/d"},
+                                  {"efficiency", moles > 0 ? 1000 * gain / moles : std::nan(""), "mmol/mol"},
+                                  {"assimilation", mean(leaves.state[assimilation]), "umol m-2 s-1"},
+                                  {"conductance", mean(leaves.state[conductance]), "mol m-2 s-1"},
+                                  {"internal", mean(leaves.state[internal]), "umol/mol"},
+                                  {"temperature", mean(leaves.state[temperature]), "degC"},
+                                  {"potential", mean(leaves.potential), "MPa"},
+                                  {"leaf_area", area, "m2"},
+                                  {"residual", residual}};
+        if (waves_) tell_long_waves(leaves, all);
+        if (compares_) compare(plant, leaves, all);
         return all;
     }
 
     std::vector<OrganQuantity> organ_quantities() const override {
         std::vector<OrganQuantity> all;
         for (const LeafQuantity& quantity : known()) all.push_back(quantity.told);
+        if (!waves_) all.pop_back();
         return all;
     }
 
@@ -288,9 +256,10 @@ public:
         const auto quantity = std::find_if(known().begin(), known().end(),
                                            [&](const LeafQuantity& one) { return one.told.name == name; });
         if (quantity == known().end() || plant >= leaves_.size()) return nullptr;
-        auto values = std::make_shared<std::vector<float>>();
-        for (const LeafStep& leaf : leaves_[plant]) {
-            values->push_back(leaf.area > 0 ? static_cast<float>(quantity->of(leaf)) : std::nanf(""));
+        const PlantLeaves& leaves = leaves_[plant];
+        auto values = std::make_shared<std::vector<float>>(leaves.modules_in_string, std::nanf(""));
+        for (std::size_t row = 0; row < leaves.size(); ++row) {
+            (*values)[leaves.modules[row]] = static_cast<float>(quantity->of(leaves, row));
         }
         return values;
     }
@@ -303,44 +272,107 @@ public:
         std::erase_if(all, [&](const ChangingSetting& one) { return !own_air_.contains(one.key); });
         all.push_back(changing("cloud", Range::between(0, 1), air_.cloud));
         if (!supply_) all.push_back(changing("potential", Range::between(-20, 0), potential_));
+        if (soil_temperature_) all.push_back(changing("soil_temperature", soil_temperatures, *soil_temperature_));
         return all;
     }
 
-    std::pair<int, int> query_arity() const override { return {1, 8}; }
+    std::pair<int, int> query_arity() const override { return {1, static_cast<int>(form_.size())}; }
     Spreading spreading() const override { return Spreading::plants; }
 
+    void save(std::ostream& out) const override {
+        if (waves_ && supply_) write_doubles(out, last_potentials());
+    }
+    void restore(std::istream& in) override {
+        if (waves_ && supply_) read_doubles(in, last_potentials_);
+    }
+
 private:
-    /// What a plant would do as one leaf, and what a lawn would.
-    void compare(std::uint32_t plant, std::vector<Quantity>& all) const {
-        const double none = std::nan("");
-        const double lawn = weather_ ? weather_->now().evaporation / (seconds_ / seconds_per_day) : none;
-        double gain = none, water = none, by_formula = none;
-        if (plant < big_.size() && big_[plant].area > 0) {
-            const BigLeaf& big = big_[plant];
-            const LeafLight light{big.photons / big.area, big.near_infrared / big.area, dark_.thermal};
-            double potential = 0, conductance = 0;
-            for (const LeafStep& leaf : leaves_[plant]) {
-                potential += leaf.area * leaf.potential / big.area;
-                if (leaf.area > 0) conductance += leaf.area * leaf.lit.conductance / big.area;
-            }
-            const double lit = big.lit / big.area, days = seconds_ / seconds_per_day;
-            LeafStep one;
-            one.area = big.area;
-            one.lit = solved(kind_of(plant), light, potential).leaf;
-            const GasExchange unlit = in_the_dark(plant, potential).leaf;
-            const LeafRates made = rates(one, lit, unlit);
-            gain = made.gain * days;
-            water = made.water;
-            const auto formula = [&](const LeafLight& of, double open) {
-                return penman_monteith(kind_of(plant), of, now_, open);
-            };
-            by_formula = big.area * cm3_of_mole * seconds_per_day *
-                         (lit * formula(light, conductance) + (1 - lit) * formula(dark_, unlit.conductance));
+    static constexpr Range soil_temperatures{-40, 80};
+
+    void read_long_waves(const Settings& settings, const EnvironmentContext& context) {
+        if (!settings.has("long_waves")) {
+            if (!settings.has("soil_temperature")) return;
+            throw UserError(settings.place("soil_temperature"),
+                            "the soil's temperature counts with long waves only: add long_waves = { voxel = 0.2 }");
         }
-        all.push_back({"big_gain", gain, "mol"});
-        all.push_back({"big_transpiration", water, "cm3/d"});
-        all.push_back({"penman_monteith", by_formula, "cm3/d"});
-        all.push_back({"fao56", lawn, "mm/d"});
+        if (settings.has("thermal")) {
+            throw UserError(settings.place("thermal"),
+                            "long_waves find the thermal radiation of each leaf: leave out 'thermal' or 'long_waves'");
+        }
+        waves_ = std::make_unique<CanopyWaves>(settings.table("long_waves"), context);
+        last_potentials_.assign(supplied_.size(), 0);
+        if (settings.has("soil_temperature")) {
+            soil_temperature_ = settings.number("soil_temperature", soil_temperatures);
+        }
+    }
+
+    /// Temperatures of leaves and the waves that they exchange depend on each other: both are found in turn, until
+    /// nothing moves. Where roots bring the water, leaves have the plant's mean potential of the step before for that.
+    void follow_long_waves(const WorldView& world) {
+        constexpr int most_turns = 300;
+        constexpr double small_change = 1e-11;
+        waves_->lay(world, leaves_);
+        const double usual = air_.thermal_radiation();
+        std::vector<std::uint32_t> all;
+        for (std::uint32_t plant = 0; plant < leaves_.size(); ++plant) {
+            PlantLeaves& leaves = leaves_[plant];
+            leaves.thermal.assign(leaves.size(), usual);
+            leaves.sent.assign(leaves.size(), 0);
+            if (supply_) leaves.potential.assign(leaves.size(), last_potentials_[plant]);
+            all.push_back(plant);
+        }
+        const WavesAround around{waves_->sky().value_or(air_.sky_radiation()), air_.temperature,
+                                 soil_temperature_.value_or(air_.temperature), kinds_[0].emissivity};
+        const std::vector<LeafChunk> chunks = chunks_of(leaves_, all, kinds_.size());
+        for (int turn = 0; turn < most_turns; ++turn) {
+            for_in_parallel(std::size_t{0}, chunks.size(),
+                            [&](std::size_t i) { solver_->solve(leaves_, chunks[i], {.sent = true}); });
+            if (waves_->exchange(leaves_, around) < small_change) break;
+        }
+        if (!supply_) return;
+        for (PlantLeaves& leaves : leaves_) leaves.potential.assign(leaves.size(), potential_);
+    }
+
+    /// Over the area of the leaves.
+    static double mean_of(const PlantLeaves& leaves, const std::vector<double>& column, double none) {
+        double sum = 0, area = 0;
+        for (std::size_t row = 0; row < leaves.size(); ++row) {
+            sum += leaves.area[row] * column[row];
+            area += leaves.area[row];
+        }
+        return area > 0 ? sum / area : none;
+    }
+    std::vector<double> last_potentials() const {
+        std::vector<double> all;
+        for (std::uint32_t plant = 0; plant < last_potentials_.size(); ++plant) {
+            all.push_back(mean_of(leaves_[plant], leaves_[plant].potential, last_potentials_[plant]));
+        }
+        return all;
+    }
+
+    void tell_long_waves(const PlantLeaves& leaves, std::vector<Quantity>& all) const {
+        const WaveLedger& waves = waves_->ledger();
+        all.push_back({"thermal", mean_of(leaves, leaves.thermal, std::nan("")), "W/m2"});
+        all.push_back({"waves_from_plants", waves.from_plants, "W"});
+        all.push_back({"waves_from_soil", waves.from_soil, "W"});
+        all.push_back({"waves_from_sky", waves.from_sky, "W"});
+        all.push_back({"waves_to_plants", waves.to_plants, "W"});
+        all.push_back({"waves_to_soil", waves.to_soil, "W"});
+        all.push_back({"waves_to_sky", waves.to_sky, "W"});
+        all.push_back({"waves_closure", waves.closure()});
+    }
+
+    /// What a plant would do as one leaf, and what a lawn would.
+    void compare(std::uint32_t plant, const PlantLeaves& leaves, std::vector<Quantity>& all) const {
+        const double none = std::nan(""), days = seconds_ / seconds_per_day;
+        BigLeaf big{none, none, none};
+        if (leaves.size() > 0) {
+            big = big_leaf(leaves, kinds_[kinds_.of(plant)], air_.air(), air_.thermal_radiation());
+        }
+        all.push_back({"big_gain", big.gain_rate * days, "mol"});
+        all.push_back({"big_transpiration", big.water_rate, "cm3/d"});
+        all.push_back({"penman_monteith", big.by_formula, "cm3/d"});
+        all.push_back({"fao56", weather_ ? weather_->now().evaporation / days : none, "mm/d"});
     }
 
     /// What the scene says of these leaves themselves stays.
@@ -389,129 +421,90 @@ private:
                 is_divided_ && has_near_infrared_ ? values("direct.nir") : nullptr};
     }
 
-    /// With a potential that is given.
-    void breathe(const PlantView& plant, const Environment& environment, bool has_time_passed) {
-        const OrganLightValues light = light_of(plant.plant, environment);
-        std::vector<LeafStep>& leaves = leaves_[plant.plant];
-        if (!light.area || !light.power || !light.lit) return;
-        leaves.assign(light.area->size(), {});
-        std::vector<double> residuals(leaves.size(), 0);
-        std::vector<LitParts> lights(leaves.size());
-        for (std::size_t i = 0; i < leaves.size(); ++i) {
-            if (!((*light.area)[i] > 0)) continue;
-            lights[i] = light_on(light, i);
-            big_[plant.plant].add((*light.area)[i], lights[i]);
-        }
-        for_in_parallel(std::size_t{0}, leaves.size(), [&](std::size_t i) {
-            const float area = (*light.area)[i];
-            if (!(area > 0)) return;
-            LeafStep& leaf = leaves[i];
-            leaf.area = area;
-            leaf.potential = potential_;
-            const LitParts& parts = lights[i];
-            const Solved found = solved(plant.plant, parts, potential_);
-            leaf.lit = found.leaf;
-            residuals[i] = std::max(residual_in_the_dark_, found.residual);
-            if (!has_time_passed) return;
-            const LeafRates made = rates(leaf, parts.lit, unlit_[kinds_.of_plants[plant.plant]]);
-            leaf.gain = made.gain * seconds_ / seconds_per_day;
-            leaf.water = made.water * seconds_ / seconds_per_day;
-        });
-        residuals_[plant.plant] = leaves.empty() ? 0 : *std::max_element(residuals.begin(), residuals.end());
-    }
-
-    /// The leaves of a plant to which water is brought, in their light.
+    /// The leaves of a plant in their light, and what its model says of them.
     void list_leaves(const PlantView& plant, const Environment& environment) {
         const OrganLightValues light = light_of(plant.plant, environment);
-        std::vector<LeafStep>& leaves = leaves_[plant.plant];
+        PlantLeaves& leaves = leaves_[plant.plant];
         if (!light.area || !light.power || !light.lit) return;
-        leaves.assign(light.area->size(), {});
-        SuppliedLeaves& supplied = supplied_[plant.plant];
-        for (std::uint32_t module = 0; module < leaves.size(); ++module) {
+        leaves.modules_in_string = light.area->size();
+        const std::vector<std::uint16_t> colours =
+            kinds_.know_colours() ? colours_of(plant) : std::vector<std::uint16_t>();
+        for (std::uint32_t module = 0; module < light.area->size(); ++module) {
             const float area = (*light.area)[module];
             if (!(area > 0)) continue;
-            leaves[module].area = area;
-            supplied.leaves.push_back({module, area});
-            supplied.light.push_back(light_on(light, module));
-            big_[plant.plant].add(area, supplied.light.back());
+            leaves.add(module, kinds_.of(plant.plant, module < colours.size() ? colours[module] : std::uint16_t{0}),
+                       area);
+            add_light(leaves, light, module);
         }
-        supplied.now.resize(supplied.leaves.size());
-        supplied.mean.resize(supplied.leaves.size());
-        supplied.residuals.resize(supplied.leaves.size());
+        leaves.begin(potential_);
+        if (form_.says_something()) read_own_parameters(plant, environment, leaves);
     }
 
-    LitParts light_on(const OrganLightValues& values, std::size_t module) const {
-        const double lit = seconds_ > 0 ? std::min(1.0, (*values.lit)[module] / seconds_) : 0;
-        const double power = (*values.power)[module];
-        if (!(power > 0)) return {0, dark_, dark_, lit};
-        const double near = values.near_infrared ? (*values.near_infrared)[module] : near_infrared_ * power;
-        const LeafLight mean{photons_of_joule * power, near, dark_.thermal};
-        const double sunlit = values.sunlit ? std::min(1.0f, (*values.sunlit)[module]) : 0;
-        if (!(sunlit > least_part && sunlit < 1 - least_part)) return {0, mean, mean, lit};
-        const double direct = (*values.direct)[module];
-        const double near_direct = values.direct_near_infrared ? (*values.direct_near_infrared)[module] : direct;
-        const auto part = [&](double of_direct) {
-            return LeafLight{mean.photons * (1 + direct * (of_direct - 1)), near * (1 + near_direct * (of_direct - 1)),
-                             mean.thermal};
-        };
-        return {sunlit, part(1 / sunlit), part(0), lit};
+    /// Of the modules that draw leaves.
+    static std::vector<std::uint16_t> colours_of(const PlantView& plant) {
+        DrawnFaces faces;
+        faces.add_leaves(plant.plant, plant.drawn());
+        std::vector<std::uint16_t> colours(plant.string->size(), 0);
+        for (std::size_t i = 0; i < faces.size(); ++i) colours[faces[i].owner.module] = faces[i].owner.colour;
+        return colours;
     }
 
-    struct Solved {
-        GasExchange leaf;
-        double residual = 0;      ///< the largest
-        double by_potential = 0;  ///< of the transpiration, mol m-2 s-1 MPa-1
-    };
-
-    Solved solved(const LeafKind& kind, const LeafLight& light, double potential) const {
-        const SlopingExchange found = supply_ ? sloping_gas_exchange(kind, light, now_, potential)
-                                              : SlopingExchange{gas_exchange(kind, light, now_, potential)};
-        return {found.leaf, residuals_of(found.leaf, kind, light, now_, potential).largest(),
-                found.transpiration_by_potential};
-    }
-
-    /// Both parts of a leaf, and what they are together.
-    Solved solved(std::uint32_t plant, const LitParts& light, double potential) const {
-        if (!(light.shade.photons > 0) && light.sunlit == 0) {
-            const SlopingExchange dark = in_the_dark(plant, potential);
-            return {dark.leaf, residual_in_the_dark_, dark.transpiration_by_potential};
+    void read_own_parameters(const PlantView& plant, const Environment& environment, PlantLeaves& leaves) const {
+        const bool is_default = environment.default_process() == environment.find(name_);
+        for (const Query& query : plant.interpretation->queries) {
+            const bool is_ours =
+                query.process < 0 ? is_default : plant.model->processes[std::size_t(query.process)] == name_;
+            const std::size_t row = is_ours ? leaves.row_of(query.module + 1) : leaves.size();
+            if (row < leaves.size()) form_.read(query, leaves.size(), row, leaves.own);
         }
-        Solved all = solved(kind_of(plant), light.shade, potential);
-        if (light.sunlit == 0) return all;
-        const Solved sun = solved(kind_of(plant), light.sun, potential);
-        for (double GasExchange::*const rate :
-             {&GasExchange::assimilation, &GasExchange::transpiration, &GasExchange::conductance,
-              &GasExchange::temperature, &GasExchange::internal, &GasExchange::deficit}) {
-            all.leaf.*rate += light.sunlit * (sun.leaf.*rate - all.leaf.*rate);
+    }
+
+    void list_supplied(std::uint32_t plant) {
+        SuppliedPlant& supplied = supplied_[plant];
+        PlantLeaves& leaves = leaves_[plant];
+        for (std::size_t row = 0; row < leaves.size(); ++row) {
+            supplied.leaves.push_back({leaves.modules[row], leaves.area[row]});
         }
-        all.residual = std::max(all.residual, sun.residual);
-        all.by_potential += light.sunlit * (sun.by_potential - all.by_potential);
-        return all;
+        supplied.chunks = chunks_of(leaves_, std::span(&plant, 1), kinds_.size());
+        supplied.mean.resize(leaves.size());
+        leaves.by_potential.assign(leaves.size(), 0);
     }
 
-    const LeafKind& kind_of(std::uint32_t plant) const { return kinds_.kinds[kinds_.of_plants[plant]]; }
-
-    /// All leaves that have not dried are alike in the dark.
-    SlopingExchange in_the_dark(std::uint32_t plant, double potential) const {
-        if (potential >= kind_of(plant).stomata.dry) return {unlit_[kinds_.of_plants[plant]], 0};
-        return sloping_gas_exchange(kind_of(plant), dark_, now_, potential);
+    void add_light(PlantLeaves& leaves, const OrganLightValues& values, std::size_t module) const {
+        const auto of = [&](const Values& column, float none) { return column ? (*column)[module] : none; };
+        const float power = (*values.power)[module];
+        leaves.lit.push_back(seconds_ > 0 ? static_cast<float>(std::min(1.0, (*values.lit)[module] / seconds_)) : 0);
+        const float photons = power > 0 ? static_cast<float>(photons_of_joule) * power : 0;
+        const float near = power > 0 ? of(values.near_infrared, static_cast<float>(near_infrared_) * power) : 0;
+        float sunlit = power > 0 ? std::min(1.0F, of(values.sunlit, 0)) : 0;
+        if (!(sunlit > least_part && sunlit < 1 - least_part)) sunlit = 0;
+        const float direct = sunlit > 0 ? of(values.direct, 0) : 0;
+        const float near_direct = sunlit > 0 ? of(values.direct_near_infrared, direct) : 0;
+        const float more = sunlit > 0 ? 1 / sunlit - 1 : 0;
+        leaves.sunlit.push_back(sunlit);
+        leaves.sun_photons.push_back(photons * (1 + direct * more));
+        leaves.sun_near_infrared.push_back(near * (1 + near_direct * more));
+        leaves.shade_photons.push_back(photons * (1 - direct));
+        leaves.shade_near_infrared.push_back(near * (1 - near_direct));
     }
 
-    LeafRates rates(const LeafStep& leaf, double lit, const GasExchange& unlit) const {
-        const auto mean = [&](double GasExchange::*rate) { return lit * (leaf.lit.*rate) + (1 - lit) * (unlit.*rate); };
-        return {1e-6 * seconds_per_day * leaf.area * mean(&GasExchange::assimilation),
-                cm3_of_mole * seconds_per_day * leaf.area * mean(&GasExchange::transpiration)};
-    }
-
-    LeafStep leaf_behind(const Query& query) const {
-        if (query.plant >= leaves_.size()) return {};
-        const std::vector<LeafStep>& leaves = leaves_[query.plant];
-        return query.module + 1 < leaves.size() ? leaves[query.module + 1] : LeafStep{};
+    /// The answers in the order of QueryForm::answered().
+    std::array<double, 8> told_of_leaf_behind(const Query& query) const {
+        std::array<double, 8> told{};
+        told[5] = air_.temperature;
+        if (query.plant >= leaves_.size()) return told;
+        const PlantLeaves& leaves = leaves_[query.plant];
+        const std::size_t row = leaves.row_of(query.module + 1);
+        if (row == leaves.size()) return told;
+        const auto state = [&](LeafState of) { return leaves.state[of][row]; };
+        return {leaves.gain[row],   leaves.water[row],  state(assimilation), 1000 * state(transpiration),
+                state(conductance), state(temperature), state(internal),     leaves.potential[row]};
     }
 
     std::string name_, light_;
     Place light_place_;
     LeafKinds kinds_;
+    QueryForm form_;
     std::shared_ptr<const Weather> weather_;  ///< null: the air is the table's alone
     SceneAir air_;
     std::set<std::string> own_air_;  ///< keys that the weather does not change
@@ -526,14 +519,12 @@ private:
     // Of the step.
     double seconds_ = 0;
     bool has_near_infrared_ = false;  ///< the light measures it
-    Air now_;
-    LeafLight dark_;
-    std::vector<GasExchange> unlit_;  ///< of every leaf in the dark, by kind
-    double residual_in_the_dark_ = 0;
-    std::vector<std::vector<LeafStep>> leaves_;  ///< of each plant, by module
-    std::vector<BigLeaf> big_;                   ///< of each plant
-    std::vector<SuppliedLeaves> supplied_;       ///< of each plant
-    std::vector<double> residuals_;
+    std::optional<LeafSolver> solver_;
+    std::vector<PlantLeaves> leaves_;      ///< of each plant
+    std::vector<SuppliedPlant> supplied_;  ///< of each plant
+    std::unique_ptr<CanopyWaves> waves_;   ///< null: leaves see the open sky
+    std::optional<double> soil_temperature_;
+    std::vector<double> last_potentials_;  ///< of each plant in the step before; with long waves
 };
 
 const std::string& help() {
@@ -557,7 +548,11 @@ days           1; days that a unit of time stands for
 
 Of the leaves:
 )" + leaf_help() +
-        R"(kinds          []; tables of other leaves: plants = [1, 2], by their numbers from 0, and what of the above is different
+        canopy_waves_help() +
+        R"(kinds          []; tables of other leaves: plants = [1, 2], by their numbers from 0, colours = [4], of the turtle that drew them, or
+               both; and what of the above is different. The last that means a leaf counts
+query          ["gain", "water", "A", "E", "gs", "T", "Ci", "psi"]; what the parameters of a query are, in turn. A model that says of
+               single leaves what they are has "v", "jmax", "rd", "g1" or "width" among them, or alone: 0 is the scene's
 
 Of the air; temperature, humidity, wind, co2, cloud and potential may have keyframes. Of the first four and the pressure, what
 is not written here is the weather's, where `air` names one; its calm is a wind of 0.1 m/s at the leaves:
@@ -569,14 +564,18 @@ air            none; the name of a process weather that stands before this one
                                    (umol m-2 s-1), transpiration (mmol m-2 s-1), conductance of the stomata
                                    (mol m-2 s-1), temperature (degrees Celsius), CO2 in the leaf (umol/mol), water
                                    potential (MPa)
+?name(v, jmax, g1, width)          with query = ["v", "jmax", "g1", "width"]: says what the leaf that follows the query has
 
 The light of a step counts as its mean while there is light: photosynthesis is not linear in light, so that steps of an hour are
 right and steps of a day take 5 to 20 % too much on a clear one (C4: 3 to 10).
 
 Statistics of each plant: gain (mol) and water (cm3) of the step, transpiration (cm3/d), efficiency (mmol CO2 per mol of water),
-temperature, potential (MPa), leaf_area (m2), residual: how far the equations are from holding, of the largest term. With canopy = "big-leaf" also big_gain (mol), big_transpiration and
+means over the area while there was light of assimilation (umol m-2 s-1), conductance (mol m-2 s-1), internal (umol/mol),
+temperature, potential (MPa), leaf_area (m2), residual: how far the equations are from holding, of the largest term. With
+long_waves also thermal (W/m2 that meet both sides, mean of the leaves) and, of the whole world in W, waves_from_plants, _soil and _sky
+and waves_to_plants, _soil and _sky, and waves_closure: all that is absorbed over all that is sent, less 1. With canopy = "big-leaf" also big_gain (mol), big_transpiration and
 penman_monteith (cm3/d) and fao56 (mm/d).
-Organs: assimilation, transpiration, conductance, temperature, internal, deficit, potential, gain, water.)";
+Organs: assimilation, transpiration, conductance, temperature, internal, deficit, potential, gain, water; with long_waves thermal.)";
     return text;
 }
 

@@ -6,7 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/text.h"
-#include "environment/exchange/covering.h"
+#include "environment/light/canopy/canopy_space.h"
 #include "environment/light/canopy/scattering.h"
 #include "environment/light/optics/organ_light.h"
 #include "geometry/grids/voxel_values.h"
@@ -22,7 +22,7 @@ namespace espalier::environment {
 namespace {
 
 // Fluxes of a beam and of all, depth, what is added, and what fields show.
-constexpr double bytes_per_voxel = 8 + 2 * 4 + 4 * 8 + 2 * 5;
+constexpr double bytes_per_voxel = 3 * 8 + 4 * 8 + 2 * 5;
 // Itself and its copy while they are sorted; what its two sides meet, and the sun.
 constexpr double bytes_per_piece = 2 * sizeof(LeafPiece) + 4 * 8 + 5 * 8;
 
@@ -53,14 +53,11 @@ public:
           organs_(settings, optics_.bands(), context.plants),
           angles_(read_angles(settings)),
           options_(read_options(settings)),
-          edge_(read_voxel(settings, 0.2)),
-          edge_place_(settings.place("voxel")),
-          ground_(settings.number_or("ground", 0)),
+          space_(settings, context.domain, 0.2),
           days_(read_days(settings, weather_.get())),
           stems_(settings.flag_or("stems", true)),
           asks_area_(settings.choice_or("area", "drawn", {"drawn", "queries"}) == "queries"),
           plants_(context.plants) {
-        if (settings.flag_or("periodic", false)) read_period(settings, context);
         for (Settings table : settings.tables("solids")) solids_.push_back(read_shape(table));
         fields.provide({name_, "mol/m2", "photons across all directions in a step", nullptr, true, [this] {
                             return grid_of(organs_.has_time_passed() ? first_band().fluence : std::vector<float>());
@@ -120,27 +117,12 @@ public:
     void limit_memory(std::size_t bytes) override { memory_ = bytes; }
 
 private:
-    void read_period(const Settings& settings, const EnvironmentContext& context) {
-        if (!context.domain) {
-            throw UserError(settings.place("periodic"),
-                            "a periodic canopy needs the scene's domain, whose sides are its period");
-        }
-        period_ = *context.domain;
-        for (const int axis : {0, 2}) {
-            const double voxels = (period_->upper[axis] - period_->lower[axis]) / edge_;
-            if (std::abs(voxels - std::round(voxels)) < 1e-6 * voxels) continue;
-            throw UserError(settings.place("voxel"),
-                            fmt::format("a whole number of voxels must make up the period of {:g} m: voxel = {:g}",
-                                        voxels * edge_, voxels * edge_ / std::max(1.0, std::round(voxels))));
-        }
-    }
-
     void collect(const WorldView& world, std::span<const Query> queries) {
         leaves_.clear();
         if (!asks_area_) {
             for (const PlantView& plant : world.plants) {
-                leaves_.add(plant.plant, plant.drawn(), edge_, optics_, stems_,
-                            [&](const ForeseenPieces& all) { require_memory(voxels_over(all.box).size, all.count); });
+                leaves_.add(plant.plant, plant.drawn(), space_.edge(), optics_, stems_,
+                            [&](const ForeseenPieces& all) { require_memory(space_.over(all.box), all.count); });
             }
             return;
         }
@@ -154,8 +136,7 @@ private:
         }
     }
 
-    /// Voxels over all leaves, places that are asked for and solids, down to the ground if it scatters; those at the
-    /// origin begin there.
+    /// Voxels over all leaves, places that are asked for and solids.
     void lay_voxels(std::span<const Query> queries) {
         Box box = leaves_.bounds();
         for (const Query& query : queries) box.add(query.pose.position);
@@ -163,37 +144,20 @@ private:
             if (const std::optional<Box> bounds = solid->bounds()) box.add(*bounds);
         }
         if (box.empty()) box.add(glm::dvec3(0));
-        const VoxelsOver over = voxels_over(box);
-        require_memory(over.size, static_cast<double>(leaves_.pieces().size()));
-        voxels_ = {over.first * edge_, glm::ivec3(over.size), edge_, period_.has_value()};
-    }
-
-    /// In voxels, of those over a box and down to the ground.
-    struct VoxelsOver {
-        glm::dvec3 first, size;
-    };
-    VoxelsOver voxels_over(Box box) const {
-        box.lower.y = std::min(box.lower.y, ground_ + 1e-9 * edge_);
-        VoxelsOver over;
-        over.first = glm::floor(box.lower / edge_);
-        over.size = glm::floor(box.upper / edge_) + 1.0 - over.first;
-        for (const int axis : {0, 2}) {
-            if (!period_) continue;
-            over.first[axis] = period_->lower[axis] / edge_;
-            over.size[axis] = std::round((period_->upper[axis] - period_->lower[axis]) / edge_);
-        }
-        return over;
+        const CanopySpace::Extent extent = space_.over(box);
+        require_memory(extent, static_cast<double>(leaves_.pieces().size()));
+        voxels_ = space_.voxels(extent);
     }
 
     static double bytes_of(double voxels, double pieces) { return voxels * bytes_per_voxel + pieces * bytes_per_piece; }
 
-    void require_memory(const glm::dvec3& size, double pieces) const {
-        const double voxels = size.x * size.y * size.z, bytes = bytes_of(voxels, pieces);
+    void require_memory(const CanopySpace::Extent& extent, double pieces) const {
+        const double voxels = extent.count(), bytes = bytes_of(voxels, pieces);
         if (voxels < 2e9 && bytes <= static_cast<double>(memory_)) return;
         throw RunError(
             fmt::format("{}: '{}' would have {} voxels and {} pieces of leaves and stems, and take {} GB: "
                         "use larger voxels or more memory",
-                        to_string(edge_place_), name_, rounded(voxels), rounded(pieces), rounded(bytes / 1e9)));
+                        to_string(space_.edge_place()), name_, rounded(voxels), rounded(pieces), rounded(bytes / 1e9)));
     }
 
     static std::string rounded(double number) { return fmt::format("{:.3g}", number); }
@@ -206,7 +170,7 @@ private:
         for_in_parallel(std::size_t{0}, is_solid_.size(), [&](std::size_t v) {
             const auto x = static_cast<std::size_t>(voxels_.size.x), y = static_cast<std::size_t>(voxels_.size.y);
             const glm::dvec3 cell(double(v % x), double(v / x % y), double(v / x / y));
-            const glm::dvec3 middle = voxels_.corner + edge_ * (cell + 0.5);
+            const glm::dvec3 middle = voxels_.corner + space_.edge() * (cell + 0.5);
             is_solid_[v] =
                 std::any_of(solids_.begin(), solids_.end(), [&](const auto& solid) { return solid->inside(middle); });
         });
@@ -217,7 +181,7 @@ private:
         const CanopyScattering scattering(voxels_, pieces, optics_, angles_, is_solid_, options_);
         bands_.assign(1, {});
         const CanopyFlux first = scattering.first(light_.beams);
-        const double square = edge_ * edge_;
+        const double square = space_.edge() * space_.edge();
         const double down = square * std::accumulate(first.ground.begin(), first.ground.end(), 0.0);
         passed_ = first.entered > 0 ? (down + first.escaped) / first.entered : std::nan("");
         bands_.clear();
@@ -272,7 +236,7 @@ private:
     }
 
     std::shared_ptr<const FieldGrid> grid_of(const std::vector<float>& values) const {
-        VoxelValues light(edge_, voxels_.corner);
+        VoxelValues light(space_.edge(), voxels_.corner);
         if (!values.empty()) light.fill(voxels_.size, values);
         return light.grid();
     }
@@ -285,12 +249,10 @@ private:
     OrganLight organs_;
     LeafAngles angles_;
     CanopyScattering::Options options_;
-    double edge_;
-    Place edge_place_;
-    double ground_, days_;
+    CanopySpace space_;
+    double days_;
     bool stems_, asks_area_;
     std::size_t plants_;
-    std::optional<Box> period_;
     std::vector<std::shared_ptr<const Shape>> solids_;
 
     Daylight light_;  ///< all that follows is of this step

@@ -3,6 +3,7 @@
 // src/environment/soil/solutes/.
 #include "espalier/environment/environment_process.h"
 
+#include "environment/exchange/needed_field.h"
 #include "environment/soil/grid/direction.h"
 #include "environment/soil/grid/field.h"
 #include "environment/soil/grid/solids.h"
@@ -18,7 +19,8 @@ namespace {
 
 /// The field of the water that the solute moves in; null if it is alone.
 const Field* water_of_solute(const Settings& settings, const Fields& fields) {
-    return settings.has("soil") ? &fields.need(settings.text("soil")) : nullptr;
+    return settings.has("soil") ? &needed_field(settings, "soil", settings.text("soil"), fields, "soil-water")
+                                : nullptr;
 }
 
 class Nutrient final : public EnvironmentProcess, public SoilFollower {

@@ -4,6 +4,7 @@
 #include "espalier/environment/environment_process.h"
 
 #include "base/bytes.h"
+#include "environment/exchange/needed_field.h"
 #include "environment/soil/grid/field.h"
 #include "environment/soil/hydraulics/heads.h"
 #include "environment/soil/richards/sink.h"
@@ -18,6 +19,7 @@
 #include <cmath>
 #include <istream>
 #include <limits>
+#include <map>
 #include <ostream>
 #include <utility>
 
@@ -26,7 +28,7 @@ namespace {
 
 SharedSoil& soil_of(const Settings& settings, const Fields& fields) {
     const std::string name = settings.text_or("soil", "water");
-    auto* const soil = dynamic_cast<SharedSoil*>(fields.need(name).source);
+    auto* const soil = dynamic_cast<SharedSoil*>(needed_field(settings, "soil", name, fields, "soil-water").source);
     if (soil) return *soil;
     throw UserError(
         settings.place("soil"),
@@ -191,6 +193,25 @@ public:
                 by_head[roots.cells[i]] += plant.water().by_head[i] / volume;
             }
         }
+    }
+
+    std::vector<JointUptake> joint() const override {
+        const double volume = shared_.layout().volume();
+        std::vector<JointUptake> all;
+        std::vector<double> by_collar;
+        for (const PlantUptake& plant : roots_) {
+            JointUptake joint;
+            if (!plant.answer_together(by_collar, joint.collar)) continue;
+            joint.collar /= volume;
+            std::map<std::size_t, double> by_cell;
+            for (std::size_t i = 0; i < by_collar.size(); ++i) {
+                const std::size_t cell = plant.roots().cells[i];
+                if (cell != PlantRoots::no_cell) by_cell[cell] += by_collar[i] / volume;
+            }
+            joint.cells.assign(by_cell.begin(), by_cell.end());
+            all.push_back(std::move(joint));
+        }
+        return all;
     }
 
     void accept(double days, double weight) override {

@@ -95,6 +95,7 @@ void add_series(Chart& chart, const PlottedTable& table, std::size_t run, const 
                 const std::string& along, Lines lines, bool upright) {
     const QuantityColumn column(table.table, quantity);
     if (!column) return;
+    if (!column_of(table.table, along)) return;  // of another run
     const std::size_t at_x = table.table.column(along), plant = table.table.column("plant");
     const std::map<double, std::string> groups = groups_of(table, lines);
     std::map<std::size_t, std::map<double, Merged>> values;  // values of each key, by x

@@ -160,7 +160,9 @@ void Growth::stop() {
 std::vector<std::string> Growth::column_names() const {
     std::vector<std::string> names = studio::column_names(*scene());
     const std::lock_guard lock(mutex_);
-    names.insert(names.begin(), organ_columns_.begin(), organ_columns_.end());
+    std::vector<std::string> organs;
+    for (const OrganColumn& column : organ_columns_) organs.push_back(column.name);
+    names.insert(names.begin(), organs.begin(), organs.end());
     return names;
 }
 
@@ -170,7 +172,12 @@ std::string Growth::column(int step, const std::string& name) const {
 }
 
 Picked Growth::module_info(int step, std::uint32_t module) const {
-    return studio::module_info(*scene(), *steps_, step, module);
+    std::vector<OrganColumn> organs;
+    {
+        const std::lock_guard lock(mutex_);
+        organs = organ_columns_;
+    }
+    return studio::module_info(*scene(), *steps_, organs, step, module);
 }
 
 void Growth::pause_drawing(bool pauses) {
@@ -241,9 +248,9 @@ void Growth::begin(Work& work, GrowthStart start) {
     }
     if (work.origin) steps_->expect(world.scene());
     if (may_extend_) world.set_steps(most_steps);
-    const std::vector<std::string> columns = organ_columns(world.scene(), world.environment());
+    const std::vector<OrganColumn> columns = organ_columns(world.scene(), world.environment());
     const std::shared_ptr<const KeptSteps> before = std::move(before_);
-    const auto knows = [&](const std::string& organ) { return before->organs().has(organ); };
+    const auto knows = [&](const OrganColumn& organ) { return before->organs().has(organ.name); };
     const bool serves =
         work.origin && before && (!work.origin->exchanges || std::all_of(columns.begin(), columns.end(), knows));
     if (serves) work.derived = steps_->inherit(*before, *work.origin);
@@ -349,7 +356,7 @@ void Growth::step(Work& work) {
     for (const auto& [name, field] : frame.fields->all()) {
         steps_->fields().add(name, work.at, field_bytes(field, number(), 0));
     }
-    for (const std::string& name : organ_columns_) {
+    for (const auto& [name, unit] : organ_columns_) {
         steps_->organs().add(name, work.at, organ_column(frame, number(), name));
     }
     if (work.origin) steps_->add_derived(work.world.derived(), work.origin);

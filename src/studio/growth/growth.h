@@ -7,6 +7,7 @@
 #include "espalier/studio/studio.h"
 
 #include "studio/growth/kept_steps.h"
+#include "studio/growth/organ_columns.h"
 #include "studio/growth/plant_source.h"
 #include "studio/growth/printed_text.h"
 #include "studio/growth/workers.h"
@@ -122,7 +123,7 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::shared_ptr<const Scene> scene_;
-    std::vector<std::string> organ_columns_;
+    std::vector<OrganColumn> organ_columns_;
     std::set<int> wanted_;  ///< steps to be drawn before others
     // Of its own thread, while it grows.
     std::unique_ptr<ReadLog> reads_;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 
@@ -66,8 +67,9 @@ std::vector<std::string> parameter_names(const Model& model, LetterId letter) {
 /// What `pick` asks, gathered step by step.
 class Inquiry {
 public:
-    Inquiry(const Scene& scene, const KeptSteps& steps, int step, std::uint32_t module)
-        : scene_(scene), steps_(steps), step_(step) {
+    Inquiry(const Scene& scene, const KeptSteps& steps, std::span<const OrganColumn> organs, int step,
+            std::uint32_t module)
+        : scene_(scene), steps_(steps), organs_(organs), step_(step) {
         require_step(steps, step);
         const std::vector<ModuleString> strings = steps.strings(step);
         for (plant_ = 0; plant_ < strings.size() && module - first_ >= strings[plant_].size(); ++plant_) {
@@ -94,6 +96,7 @@ public:
         picked.children = children(now, identity);
         picked.siblings = siblings(now);
         picked.history = history(now, identity);
+        picked.day = day(identity);
         picked.places = places(now, identity);
         return picked;
     }
@@ -156,6 +159,44 @@ private:
         return history;
     }
 
+    std::optional<PickedDay> day(Identity identity) const {
+        const std::optional<StepsOfDay> of_day = steps_of_day(scene_.dt, scene_.time_unit, step_);
+        if (!of_day || organs_.empty()) return std::nullopt;
+        PickedDay course;
+        std::vector<std::vector<Nullable<double>>> rows(organs_.size());
+        std::vector<bool> is_known(organs_.size(), false);
+        for (int step = of_day->first; step <= of_day->last; step += of_day->stride) {
+            const std::optional<std::size_t> module = steps_.has(step) ? number_at(step, identity) : std::nullopt;
+            if (!module) continue;
+            course.steps.push_back(step);
+            course.hours.push_back(of_day->hour_at_end_of(step));
+            for (std::size_t i = 0; i < organs_.size(); ++i) {
+                const float value = number_in(steps_.organs().message(organs_[i].name, step, 0), *module);
+                is_known[i] = is_known[i] || !std::isnan(value);
+                rows[i].push_back(std::isnan(value) ? Nullable<double>() : Nullable<double>(value));
+            }
+        }
+        for (std::size_t i = 0; i < organs_.size(); ++i) {
+            if (!is_known[i]) continue;
+            course.names.push_back(organs_[i].name);
+            course.units.push_back(organs_[i].unit);
+            course.values.push_back(std::move(rows[i]));
+        }
+        return course.names.empty() ? std::nullopt : std::optional(course);
+    }
+
+    /// Through all plants.
+    std::optional<std::size_t> number_at(int step, Identity identity) const {
+        const std::vector<ModuleString> strings = steps_.strings(step);
+        std::size_t before = 0;
+        for (std::size_t plant = 0; plant < plant_; ++plant) before += strings[plant].size();
+        const ModuleString& string = strings[plant_];
+        for (std::size_t i = 0; i < string.births.size(); ++i) {
+            if (string.identity(i) == identity) return before + i;
+        }
+        return std::nullopt;
+    }
+
     // Productions that replace what stood here one step ago, itself or its parent, by something with its letter.
     std::vector<PickedPlace> places(const PlantString& now, Identity identity) const {
         std::vector<PickedPlace> places;
@@ -189,6 +230,7 @@ private:
 
     const Scene& scene_;
     const KeptSteps& steps_;
+    const std::span<const OrganColumn> organs_;
     const int step_;
     std::size_t plant_ = 0, module_ = 0;
     std::uint32_t first_ = 0;  ///< number of the plant's first module
@@ -262,8 +304,25 @@ int most_parameters(const Scene& scene) {
 
 }  // namespace
 
-Picked module_info(const Scene& scene, const KeptSteps& steps, int step, std::uint32_t module) {
-    return Inquiry(scene, steps, step, module).answer();
+Picked module_info(const Scene& scene, const KeptSteps& steps, std::span<const OrganColumn> organs, int step,
+                   std::uint32_t module) {
+    return Inquiry(scene, steps, organs, step, module).answer();
+}
+
+std::optional<StepsOfDay> steps_of_day(double dt, const std::string& unit, int step) {
+    const bool in_days = unit == "day" || unit == "days" || unit == "d";
+    const bool in_hours = unit == "hour" || unit == "hours" || unit == "h";
+    StepsOfDay day;
+    day.hours = in_days ? 24 * dt : in_hours ? dt : 0;
+    if (!(day.hours > 0 && day.hours <= 6)) return std::nullopt;
+    constexpr double slack = 1e-6;  // of a step
+    const double steps_in_day = 24 / day.hours;
+    const double number = std::floor((std::max(step, 1) - 1 + slack) / steps_in_day);  // of the day
+    day.first = 1 + static_cast<int>(std::ceil(number * steps_in_day - slack));
+    day.last = static_cast<int>(std::ceil((number + 1) * steps_in_day - slack));
+    day.before = (day.first - 1) * day.hours - 24 * number;
+    day.stride = std::max(1, (day.last - day.first + 1) / 100);
+    return day;
 }
 
 std::vector<std::string> column_names(const Scene& scene) {

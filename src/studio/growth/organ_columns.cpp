@@ -26,16 +26,16 @@ std::string process_of(const std::string& name) {
 
 }  // namespace
 
-std::vector<std::string> organ_columns(const Scene& scene, const Environment& environment) {
+std::vector<OrganColumn> organ_columns(const Scene& scene, const Environment& environment) {
     const std::vector<std::string> recorded = recorded_names(scene);
-    std::vector<std::string> names;
+    std::vector<OrganColumn> columns;
     std::set<std::string> processes;
     for (const OrganQuantity& quantity : environment.organ_quantities()) {
         const bool is_first = processes.insert(process_of(quantity.name)).second;
         const bool is_recorded = std::find(recorded.begin(), recorded.end(), quantity.name) != recorded.end();
-        if (quantity.components == 1 && (is_first || is_recorded)) names.push_back(quantity.name);
+        if (quantity.components == 1 && (is_first || is_recorded)) columns.push_back({quantity.name, quantity.unit});
     }
-    return names;
+    return columns;
 }
 
 std::string organ_column(const Frame& frame, std::uint32_t growth, const std::string& name) {

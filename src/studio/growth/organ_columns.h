@@ -10,9 +10,14 @@
 
 namespace espalier::studio {
 
-/// Names of the numbers that are kept of each step: what the scene records of organs, and the first that each process
+/// A column of what processes know of organs, with its unit.
+struct OrganColumn {
+    std::string name, unit;
+};
+
+/// The numbers that are kept of each step: what the scene records of organs, and the first that each process
 /// knows, such as "light.absorbed".
-std::vector<std::string> organ_columns(const Scene& scene, const Environment& environment);
+std::vector<OrganColumn> organ_columns(const Scene& scene, const Environment& environment);
 
 /// The message `ESC1` of docs/developer/studio-protocol.md, as if of step 0: a value for each module of the frame.
 std::string organ_column(const Frame& frame, std::uint32_t growth, const std::string& name);

@@ -5,6 +5,7 @@
 #include "base/json_text.h"
 #include "base/reason.h"
 #include "simulation/run/recorded_command.h"
+#include "studio/growth/inquiry.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -41,6 +42,18 @@ std::vector<std::string> other_options(const RecordedCommand& command) {
         if (name.starts_with("--") && name != "--steps" && name != "--seed") options.push_back(name);
     }
     return options;
+}
+
+std::vector<Nullable<double>> recorded_numbers(const OrganHistory& known, const OrganMoment& moment,
+                                               const std::vector<std::string>& names) {
+    std::vector<Nullable<double>> row;
+    for (const std::string& name : names) {
+        const auto at = std::find(known.parameters.begin(), known.parameters.end(), name);
+        const auto number = static_cast<std::size_t>(at - known.parameters.begin());
+        row.push_back(number < moment.parameters.size() ? Nullable<double>(moment.parameters[number])
+                                                        : Nullable<double>());
+    }
+    return row;
 }
 
 Diagnostic warning(const std::string& message) {
@@ -297,32 +310,52 @@ Picked Recording::module_info(int step, std::uint32_t module) const {
         picked.names.push_back(name);
         picked.parameters.push_back(value);
     }
-    picked.history = history(one.organ, step, picked.names);
+    const auto known = moments(one.organ, step);
+    picked.history = known ? history(*known, step, picked.names) : PickedHistory();
+    if (known) picked.day = day(*known, step, picked.names, shown->units());
     return picked;
 }
 
 // As far as it can be read while a page waits.
-PickedHistory Recording::history(const OrganKey& organ, int step, const std::vector<std::string>& names) const {
-    PickedHistory found;
+std::optional<OrganHistory> Recording::moments(const OrganKey& organ, int step) const {
     const auto end = std::chrono::steady_clock::now() + longest_history;
     const auto in_time = [end](const OrganHistory&, std::size_t, std::size_t) {
         return std::chrono::steady_clock::now() < end;
     };
-    const auto known = histories_.history(*run_, organ, run_->frames()[frame_at(step)].step, in_time);
-    if (!known) return found;
-    for (const OrganMoment& moment : known->moments) {
+    return histories_.history(*run_, organ, run_->frames()[frame_at(step)].step, in_time);
+}
+
+PickedHistory Recording::history(const OrganHistory& known, int step, const std::vector<std::string>& names) const {
+    PickedHistory found;
+    for (const OrganMoment& moment : known.moments) {
         if (moment.step > step) break;
-        std::vector<Nullable<double>> row;
-        for (const std::string& name : names) {
-            const auto at = std::find(known->parameters.begin(), known->parameters.end(), name);
-            const auto number = static_cast<std::size_t>(at - known->parameters.begin());
-            row.push_back(number < moment.parameters.size() ? Nullable<double>(moment.parameters[number])
-                                                            : Nullable<double>());
-        }
         found.steps.push_back(moment.step);
-        found.parameters.push_back(std::move(row));
+        found.parameters.push_back(recorded_numbers(known, moment, names));
     }
     return found;
+}
+
+// What processes know has a name with a dot.
+std::optional<PickedDay> Recording::day(const OrganHistory& known, int step, const std::vector<std::string>& names,
+                                        const std::map<std::string, std::string>& units) const {
+    const std::optional<StepsOfDay> of_day = steps_of_day(run_->dt(), run_->time_unit(), step);
+    PickedDay course;
+    for (const std::string& name : names) {
+        if (name.find('.') == std::string::npos) continue;
+        course.names.push_back(name);
+        const auto unit = units.find(name);
+        course.units.push_back(unit == units.end() ? "" : unit->second);
+    }
+    if (!of_day || course.names.empty()) return std::nullopt;
+    course.values.resize(course.names.size());
+    for (const OrganMoment& moment : known.moments) {
+        if (moment.step < of_day->first || moment.step > of_day->last) continue;
+        course.steps.push_back(moment.step);
+        course.hours.push_back(of_day->hour_at_end_of(moment.step));
+        const std::vector<Nullable<double>> row = recorded_numbers(known, moment, course.names);
+        for (std::size_t i = 0; i < row.size(); ++i) course.values[i].push_back(row[i]);
+    }
+    return course;
 }
 
 }  // namespace espalier::studio

@@ -59,7 +59,10 @@ private:
     /// The number of the frame that a step shows. Throws UserError for a step before the first or behind the last.
     std::size_t frame_at(int step) const;
     std::shared_ptr<const DrawnFrame> frame(std::size_t number) const;
-    PickedHistory history(const OrganKey& organ, int step, const std::vector<std::string>& names) const;
+    std::optional<OrganHistory> moments(const OrganKey& organ, int step) const;
+    PickedHistory history(const OrganHistory& known, int step, const std::vector<std::string>& names) const;
+    std::optional<PickedDay> day(const OrganHistory& known, int step, const std::vector<std::string>& names,
+                                 const std::map<std::string, std::string>& units) const;
 
     const GrowthOrder order_;
     GrowthListener& listener_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 
@@ -90,6 +91,16 @@ std::string column_message(std::uint32_t growth, int step, const std::string& na
     out.put_text(name);
     out.put_all(values);
     return out.take();
+}
+
+float number_in(const std::string& column_message, std::size_t module) {
+    constexpr std::size_t count_at = 12;
+    std::uint32_t count = 0;
+    std::memcpy(&count, column_message.data() + count_at, sizeof count);
+    if (module >= count) return no_number;
+    float value = no_number;
+    std::memcpy(&value, column_message.data() + column_message.size() - sizeof value * (count - module), sizeof value);
+    return value;
 }
 
 std::string PacketParts::bytes(std::uint32_t growth, int step) const {

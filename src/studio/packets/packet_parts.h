@@ -92,6 +92,8 @@ struct Group {
 
 /// The message `ESC1`: a number for each module, NaN where it has none.
 std::string column_message(std::uint32_t growth, int step, const std::string& name, std::span<const float> values);
+/// What such a message says of a module; NaN where it ends before.
+float number_in(const std::string& column_message, std::size_t module);
 
 struct PacketParts {
     Extent extent;

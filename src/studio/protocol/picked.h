@@ -36,6 +36,23 @@ struct PickedHistory {
     }
 };
 
+struct PickedDay {
+    static constexpr TypeName type{"Day", "what processes know of a module within the day of the step"};
+    std::vector<int> steps;
+    std::vector<double> hours;
+    std::vector<std::string> names, units;
+    std::vector<std::vector<Nullable<double>>> values;
+
+    template <class Self, class Fields>
+    static void declare(Self& self, const Fields& field) {
+        field("steps", self.steps, "steps of the day in which there was the module");
+        field("hours", self.hours, "since the midnight before, at the end of each step");
+        field("names", self.names, "what is known, such as leaves.assimilation");
+        field("units", self.units, "of each; empty: none is known");
+        field("values", self.values, "a row for each name, a value for each step; null where there is none");
+    }
+};
+
 struct PickedPlace {
     static constexpr TypeName type{"Place", "a place in a text"};
     std::string file;
@@ -60,6 +77,7 @@ struct Picked {
     std::optional<Nullable<PickedParent>> parent;
     std::optional<std::size_t> children;
     std::optional<PickedHistory> history;
+    std::optional<PickedDay> day;
     std::optional<std::vector<PickedPlace>> places;
     std::optional<std::vector<std::size_t>> siblings;
 
@@ -76,6 +94,7 @@ struct Picked {
         field("parent", self.parent, "null for modules of the axiom");
         field("children", self.children, "modules of this step that were born of it");
         field("history", self.history, "its parameters since its birth");
+        field("day", self.day, "the course of its day, where steps are shorter than a quarter of one");
         field("places", self.places, "the productions that may have made it");
         field("siblings", self.siblings, "modules of this step that were born with it");
     }

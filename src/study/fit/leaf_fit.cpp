@@ -173,7 +173,7 @@ double modelled_assimilation(const LeafRecord& row, const LeafFitChoices& choice
 }
 
 double modelled_conductance(const LeafRecord& row, const LeafKind& leaf) {
-    return tells_stomata(row) ? leaf.stomata.opening(surface_of(row, leaf), 1).conductance : not_measured;
+    return tells_stomata(row) ? leaf.stomata.opening(surface_of(row, leaf)) : not_measured;
 }
 
 LeafFit fit_leaf(const LeafRecords& records, const LeafFitChoices& choices) {

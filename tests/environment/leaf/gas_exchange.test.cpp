@@ -2,11 +2,11 @@
 #include "environment/leaf/gas/gas_exchange.h"
 
 #include "catch.h"
+#include "environment/leaf/any_leaf.h"
 #include "environment/leaf/gas/reference_evaporation.h"
 
 #include <cmath>
 #include <numbers>
-#include <random>
 
 using namespace espalier;
 using namespace espalier::environment::leaf;
@@ -15,29 +15,6 @@ namespace {
 
 const Air summer{25, 0.6 * saturation_pressure(25), 1.5, 400, sea_level};
 const LeafLight noon{1200, 120, 790};
-
-/// Anything that a leaf may meet.
-struct Chance {
-    explicit Chance(unsigned seed) : random(seed) {}
-    double between(double lowest, double highest) { return std::uniform_real_distribution<>(lowest, highest)(random); }
-    LeafKind kind() {
-        LeafKind leaf;
-        const int form = static_cast<int>(between(0, 3));
-        leaf.stomata.form = static_cast<Stomata::Form>(form);
-        leaf.stomata.least = between(0, 1) < 0.3 ? 0 : between(0, 0.02);
-        leaf.stomata.slope = form == 0 ? between(1, 7) : between(4, 12);
-        if (between(0, 1) < 0.3) leaf.photosynthesis = Photosynthesis::of_c4();
-        leaf.photosynthesis.carboxylation.at_25 = between(10, 120);
-        leaf.width = between(0.002, 0.2);
-        return leaf;
-    }
-    LeafLight light() { return {between(0, 1) < 0.1 ? 0 : between(0, 2200), between(0, 300), between(500, 1000)}; }
-    Air air() {
-        const double t = between(-5, 45);
-        return {t, saturation_pressure(t) * between(0.05, 1), between(0.1, 8), between(150, 1050), between(70, 102)};
-    }
-    std::mt19937 random;
-};
 
 /// Net assimilation at a Ci as the papers write it, for C3 at sea level.
 double farquhar(double v, double jmax, double rd, double q, double ci, double celsius) {
@@ -98,7 +75,7 @@ TEST_CASE("a leaf in a summer's noon finds its published state", "[leaf]") {
 }
 
 TEST_CASE("a C3 leaf is where nested bisections find it", "[leaf]") {
-    Chance chance(7);
+    AnyLeaf chance(7);
     for (int i = 0; i < 40; ++i) {
         const LeafLight light{chance.between(100, 2000), chance.between(20, 300), chance.between(600, 900)};
         Air air = summer;
@@ -136,7 +113,7 @@ TEST_CASE("a C3 leaf is where nested bisections find it", "[leaf]") {
 }
 
 TEST_CASE("all four equations hold for any leaf in any air", "[leaf]") {
-    Chance chance(20261129);
+    AnyLeaf chance(20261129);
     double worst = 0;
     for (int i = 0; i < 20000; ++i) {
         const LeafKind leaf = chance.kind();

@@ -130,5 +130,13 @@ TEST_CASE("what leaves say of the scene is one line", "[leaf-exchange]") {
     CHECK_THAT(mistake(leaves + light), Contains("needs a canopy-light or a ray-light called 'light', before it"));
     CHECK_THAT(mistake(light + leaves + "humidity = 60\n"), Contains("write 0.6 for 60 %"));
     CHECK_THAT(mistake(light + leaves + "co2 = 40\n"), Contains("40 Pa at sea level are 400"));
-    CHECK_THAT(mistake(light + leaves + "wind = -1\n"), Contains("wind"));
+    CHECK_THAT(mistake(light + leaves + "wind = -1\n"), Contains("write 0.1 for calm air"));
+    CHECK_THAT(mistake(light + "[leaves]\nprocess = \"leaf-exchange\"\n"), Contains("write light = \"light\""));
+    CHECK_THAT(mistake(light + leaves + "roots = \"roots\"\n"),
+               Contains("scene.toml:") && Contains("[environment.roots] with process = \"root-water\" above it"));
+    CHECK_THAT(mistake(light + leaves + "air = \"air\"\n"), Contains("[environment.air] with process = \"weather\""));
+    CHECK_THAT(mistake(light + "[roots]\nprocess = \"root-water\"\nradial = 1e-4\naxial = 1\n"),
+               Contains("scene.toml:") && Contains("[environment.water] with process = \"soil-water\" above it"));
+    CHECK_THAT(mistake(light + "[salt]\nprocess = \"nutrient\"\nsoil = \"mud\"\n"),
+               Contains("[environment.mud] with process = \"soil-water\" above it"));
 }

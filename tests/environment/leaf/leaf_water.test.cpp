@@ -53,8 +53,8 @@ TEST_CASE("a leaf that has dried keeps what water it has", "[leaf]") {
     LeafKind leaf = closing_leaf();
     leaf.stomata.dry = -4;
     const LeafLight light{1200, 80, 780};
-    CHECK(leaf.stomata.least_at(-4) == 0.005);
-    CHECK(leaf.stomata.least_at(-6) == Approx(0.005 * std::exp(-4)));
+    CHECK(leaf.stomata.opening({}, -4) == 0.005);
+    CHECK(leaf.stomata.opening({}, -6) == Approx(0.005 * std::exp(-4)));
     const double wilted = gas_exchange(leaf, light, dry_air, -4).transpiration;
     CHECK(gas_exchange(leaf, light, dry_air, -9).transpiration < 1e-3 * wilted);
     CHECK(residuals_of(gas_exchange(leaf, light, dry_air, -6), leaf, light, dry_air, -6).largest() < 1e-10);

@@ -13,14 +13,15 @@ struct BoundaryLayer {
     double heat = 0;    ///< of one side
     double vapour = 0;  ///< of the side with stomata
 
+    static constexpr double of_heat = 1.4 * 0.135, of_vapour = 1.4 * 0.147;  ///< times the root of wind over width
+    static constexpr double vapour_to_carbon = 1.37;
     static BoundaryLayer forced(double width, double wind);
-    double carbon_dioxide() const { return vapour / 1.37; }
 };
 
-/// What falls on a leaf and stays there, per area of one side.
 /// Of daylight's PAR, umol (McCree 1972).
 inline constexpr double photons_of_joule = 4.57;
 
+/// What falls on a leaf and stays there, per area of one side.
 struct LeafLight {
     double photons = 0;        ///< of PAR, umol m-2 s-1
     double near_infrared = 0;  ///< W m-2

@@ -12,7 +12,7 @@ namespace espalier::environment {
 /// A leaf that draws water.
 struct DrawingLeaf {
     std::uint32_t module = 0;  ///< in the plant's string
-    double area = 0;           ///< of one side, m2
+    float area = 0;            ///< of one side, m2
 };
 
 /// What a leaf gives at a water potential.

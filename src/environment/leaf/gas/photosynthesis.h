@@ -3,10 +3,9 @@
 #pragma once
 
 #include "environment/leaf/gas/air.h"
+#include "environment/leaf/gas/lanes.h"
 
-#include <array>
 #include <cstddef>
-#include <limits>
 
 namespace espalier::environment::leaf {
 
@@ -23,15 +22,17 @@ struct Response {
 
 enum class Pathway { c3, c4 };
 
+inline constexpr double unlimited = __builtin_inf();
+
 /// Of one kind of leaf. The defaults are C3.
 struct Photosynthesis {
     Pathway pathway = Pathway::c3;
-    Response carboxylation{78.5, 65330};                             ///< V, of Rubisco
-    Response electron_transport{150, 43540};                         ///< Jmax
-    Response respiration{2.12, 46390};                               ///< Rd, in the light
-    double phosphate_use = std::numeric_limits<double>::infinity();  ///< TPU
-    double quantum_yield = 0.24;                                     ///< mol electrons per mol absorbed photons
-    double curvature = 0.85;                                         ///< of the response of electron transport to light
+    Response carboxylation{78.5, 65330};      ///< V, of Rubisco
+    Response electron_transport{150, 43540};  ///< Jmax
+    Response respiration{2.12, 46390};        ///< Rd, in the light
+    double phosphate_use = unlimited;         ///< TPU
+    double quantum_yield = 0.24;              ///< mol electrons per mol absorbed photons
+    double curvature = 0.85;                  ///< of the response of electron transport to light
     // C4 alone.
     Response carboxylation_pep{120, 70370};  ///< Vp, of PEP carboxylase
     double regeneration_pep = 80;            ///< Vpr
@@ -41,33 +42,39 @@ struct Photosynthesis {
     static Photosynthesis of_c4();
 };
 
-/// One of the processes that may limit a leaf: A = rate (Ci - point) / (Ci + half) + slope Ci - loss. It never falls
-/// where Ci rises.
-struct Limit {
-    double rate = 0, point = 0, half = 0, slope = 0, loss = 0;
+inline constexpr double oxygen = 210;  ///< mmol mol-1
+// Bernacchi et al. (2001): at 25 degrees in umol mol-1, mmol mol-1 and umol mol-1.
+inline constexpr Response michaelis_carbon{404.9, 79430}, michaelis_oxygen{278.4, 36380};
+inline constexpr Response compensation_point{42.75, 37830};
+// Of PEP carboxylase, with the activation energy of von Caemmerer (2000, table 4.1: Q10 of 2.1).
+inline constexpr Response michaelis_pep{80, 54800};
 
-    double at(double ci) const { return rate * (ci - point) / (ci + half) + slope * ci - loss; }
-    double derivative(double ci) const { return rate * (half + point) / ((ci + half) * (ci + half)) + slope; }
-    /// Ci where the leaf uses what reaches it from `outside` through a conductance (mol m-2 s-1).
-    double supplied(double outside, double conductance) const;
+/// One of the processes that may limit a leaf: A = rate (Ci - point) / (Ci + half) + slope Ci - loss. It never falls
+/// where Ci rises. T is a double, or several side by side: see lanes.h.
+template <class T>
+struct LimitOf {
+    T rate{}, point{}, half{}, slope{}, loss{};
+
+    ESPALIER_INLINE T at(T ci) const { return rate * (ci - point) / (ci + half) + slope * ci - loss; }
 };
 
 /// The limits of a leaf at one temperature in one light.
-struct Limits {
-    std::array<Limit, 5> limits;
+template <class T>
+struct LimitsOf {
+    LimitOf<T> limits[5];
     std::size_t count = 0;
-    double compensation = 0;  ///< Gamma*, umol mol-1; 0 of C4
+    T compensation{};  ///< Gamma*, umol mol-1; 0 of C4
+    T respiration{};
 
-    struct Assimilation {
-        double rate = 0, ci = 0;
-        double derivative = 0;  ///< by Ci, of the limit that holds
-    };
     /// The least of the limits.
-    double at(double ci) const;
-    /// Ci at which the leaf neither takes nor gives; there is one where the least of the limits is above 0 somewhere.
-    double compensation_point() const;
-    Assimilation supplied(double outside, double conductance) const;
+    ESPALIER_INLINE T at(T ci) const {
+        T least = limits[0].at(ci);
+        for (std::size_t i = 1; i < count; ++i) least = smaller<T>(least, limits[i].at(ci));
+        return least;
+    }
 };
+using Limit = LimitOf<double>;
+using Limits = LimitsOf<double>;
 
 /// `photons` of PAR are absorbed, umol m-2 s-1.
 Limits limits_of(const Photosynthesis& leaf, double photons, double temperature, double pressure = sea_level);

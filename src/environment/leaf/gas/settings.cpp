@@ -2,6 +2,8 @@
 
 #include "espalier/base/math.h"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 namespace espalier::environment::leaf {
@@ -41,20 +43,20 @@ LeafKind read_leaf_kind(const Settings& settings, const LeafKind& common) {
     LeafKind leaf = read_forms(settings, common);
     Photosynthesis& rates = leaf.photosynthesis;
     if (rates.pathway == Pathway::c4) {
-        rates.carboxylation_pep.at_25 = settings.number_or("vp", rates.carboxylation_pep.at_25, Range::positive());
+        rates.carboxylation_pep.at_25 = settings.number_or("vp", rates.carboxylation_pep.at_25, of_carboxylation);
     }
-    rates.carboxylation.at_25 = settings.number_or("v", rates.carboxylation.at_25, Range::positive());
-    rates.electron_transport.at_25 = settings.number_or("jmax", rates.electron_transport.at_25, Range::positive());
-    rates.respiration.at_25 = settings.number_or("rd", rates.respiration.at_25, Range::not_negative());
-    if (settings.has("tpu")) rates.phosphate_use = settings.number("tpu", Range::positive());
+    rates.carboxylation.at_25 = settings.number_or("v", rates.carboxylation.at_25, of_carboxylation);
+    rates.electron_transport.at_25 = settings.number_or("jmax", rates.electron_transport.at_25, of_electron_transport);
+    rates.respiration.at_25 = settings.number_or("rd", rates.respiration.at_25, of_respiration);
+    if (settings.has("tpu")) rates.phosphate_use = settings.number("tpu", of_carboxylation);
     Stomata& stomata = leaf.stomata;
     stomata.least = settings.number_or("g0", stomata.least, Range::between(0, 5));
-    stomata.slope = settings.number_or("g1", stomata.slope, Range::between(0, 100));
+    stomata.slope = settings.number_or("g1", stomata.slope, of_slope);
     stomata.deficit_0 = settings.number_or("d0", stomata.deficit_0, Range::positive());
     stomata.sensitivity = settings.number_or("sf", stomata.sensitivity, Range::between(0, 50));
     stomata.reference = settings.number_or("psi_f", stomata.reference, Range::between(-20, 0));
     stomata.dry = settings.number_or("psi_dry", stomata.dry, Range::between(-100, 0));
-    leaf.width = settings.number_or("width", leaf.width, Range::between(1e-4, 10));
+    leaf.width = settings.number_or("width", leaf.width, of_width);
     return leaf;
 }
 
@@ -70,11 +72,18 @@ double read_carbon_dioxide(const Settings& settings, double fallback) {
     throw UserError(settings.place("co2"), "'co2' is in umol per mol of air, 50 to 10000: 40 Pa at sea level are 400");
 }
 
+double read_wind(const Settings& settings, double fallback) {
+    const double wind = settings.number_or("wind", fallback, Range::any());
+    if (wind >= 0.01 && wind <= 100) return wind;
+    throw UserError(settings.place("wind"),
+                    fmt::format("'wind' is a speed from 0.01 to 100 m/s, not {:g}: write 0.1 for calm air", wind));
+}
+
 SceneAir SceneAir::read(const Settings& settings) {
     SceneAir air;
     air.temperature = settings.number_or("temperature", air.temperature, Range::between(-40, 60));
     air.humidity = read_humidity(settings, air.humidity);
-    air.wind = settings.number_or("wind", air.wind, Range::between(0.01, 100));
+    air.wind = read_wind(settings, air.wind);
     air.carbon_dioxide = read_carbon_dioxide(settings, air.carbon_dioxide);
     if (settings.has("pressure") && settings.has("height")) {
         throw UserError(settings.place("height"), "give either 'height' above the sea or 'pressure'");
@@ -90,12 +99,14 @@ Air SceneAir::air() const {
     return {temperature, humidity * saturation_pressure(temperature), wind, carbon_dioxide, pressure};
 }
 
-double SceneAir::thermal_radiation() const {
-    if (thermal) return *thermal;
+double SceneAir::sky_radiation() const {
     const double hectopascal = 10 * humidity * saturation_pressure(temperature);
     const double clear = 1.24 * math::pow(hectopascal / (temperature + kelvin), 1.0 / 7);
-    const double sky = (1 - 0.84 * cloud) * clear + 0.84 * cloud;
-    return (sky + 1) * black_body(temperature);
+    return ((1 - 0.84 * cloud) * clear + 0.84 * cloud) * black_body(temperature);
+}
+
+double SceneAir::thermal_radiation() const {
+    return thermal ? *thermal : sky_radiation() + black_body(temperature);
 }
 
 const std::string& leaf_help() {

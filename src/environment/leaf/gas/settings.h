@@ -13,6 +13,10 @@ namespace espalier::environment::leaf {
 /// The leaf of a scene that says nothing: C3, with a g0 of 0.005 mol m-2 s-1.
 LeafKind usual_leaf();
 
+// What a leaf may have of each, in a scene and in a query.
+inline constexpr Range of_carboxylation{0, 1000, true}, of_electron_transport{0, 2000, true};  ///< umol m-2 s-1
+inline constexpr Range of_respiration{0, 100}, of_slope{0, 100}, of_width{1e-4, 10};           ///< ..., g1, m
+
 /// Reads `pathway`, `v`, `jmax`, `rd`, `tpu`, `stomata`, `g0`, `g1`, `d0`, `sf`, `psi_f`, `psi_dry`, `width`. What is
 /// not there is as in `common`; with another pathway or form of stomata, their parameters are the usual ones.
 LeafKind read_leaf_kind(const Settings& settings, const LeafKind& common = usual_leaf());
@@ -33,8 +37,9 @@ struct SceneAir {
 
     static SceneAir read(const Settings& settings);
     Air air() const;
-    /// Without a number of the scene: of the sky (Brutsaert 1975; clouds as Monteith & Unsworth 1990, eq. 4.23), and of
-    /// a ground as warm as the air.
+    /// Of the sky on level ground, W m-2 (Brutsaert 1975; clouds as Monteith & Unsworth 1990, eq. 4.23).
+    double sky_radiation() const;
+    /// Without a number of the scene: of that sky, and of a ground as warm as the air.
     double thermal_radiation() const;
 };
 

@@ -14,11 +14,6 @@ struct AtSurface {
     double compensation = 0;    ///< Gamma*, umol mol-1
 };
 
-/// A conductance and its derivatives by A, Cs and D.
-struct Opening {
-    double conductance = 0, by_assimilation = 0, by_carbon_dioxide = 0, by_deficit = 0;
-};
-
 /// Medlyn et al. (2011): g0 + 1.6 (1 + f g1 / sqrt(D)) A / Cs. Leuning (1995): g0 + f a1 A / ((Cs - Gamma*) (1 + D /
 /// D0)). Ball, Woodrow & Berry (1987): g0 + f g1 A h / Cs, h the relative humidity. Where A is not above 0: g0.
 struct Stomata {
@@ -35,14 +30,9 @@ struct Stomata {
 
     /// f, from 1 of a wet leaf to 0: (1 + exp(sf psi_f)) / (1 + exp(sf (psi_f - psi))), psi in MPa.
     double by_potential(double potential) const;
-    /// The least conductance at a water potential, MPa: a leaf that has dried gives nothing.
-    double least_at(double potential) const;
-    /// The same stomata where the least conductance is that of a potential.
-    Stomata at_potential(double potential) const;
-    Opening opening(const AtSurface& surface, double factor) const;
-    /// Not below the conductance at any surface of this leaf, whose A is at most this: where a search begins. `vapour`
-    /// is the conductance of the boundary layer, `excess` the vapour pressure in the leaf above that of the air.
-    double upper_bound(const AtSurface& surface, double factor, double vapour, double excess) const;
+    /// The conductance that they answer at a water potential, MPa. The least one falls below `dry`: a leaf that has
+    /// dried gives nothing.
+    double opening(const AtSurface& surface, double potential = 0) const;
 };
 
 /// Deficits below this count as this, kPa: the forms know no saturated air.

@@ -180,8 +180,8 @@ LeavesSeen::Sides LeavesSeen::operator()(const LeafPiece& piece) const {
     return {std::max(seen, 0.0), std::max(-seen, 0.0)};
 }
 
-std::vector<float> LeavesSeen::depths(const CanopyVoxels& voxels, const SortedPieces& sorted) const {
-    return per_volume(voxels, sorted, [&](std::size_t i) { return (*this)(sorted.pieces[i]).both(); });
+std::vector<double> LeavesSeen::depths(const CanopyVoxels& voxels, const SortedPieces& sorted) const {
+    return per_volume<double>(voxels, sorted, [&](std::size_t i) { return (*this)(sorted.pieces[i]).both(); });
 }
 
 }  // namespace espalier::environment

@@ -41,15 +41,15 @@ struct SortedPieces {
 };
 
 /// The sum of amount_of(number of piece) in each voxel, per volume.
-template <class AmountOf>
-std::vector<float> per_volume(const CanopyVoxels& voxels, const SortedPieces& sorted, const AmountOf& amount_of) {
-    std::vector<float> values(voxels.count(), 0.0f);
+template <class Number = float, class AmountOf>
+std::vector<Number> per_volume(const CanopyVoxels& voxels, const SortedPieces& sorted, const AmountOf& amount_of) {
+    std::vector<Number> values(voxels.count(), Number(0));
     const double volume = voxels.edge * voxels.edge * voxels.edge;
     const std::size_t occupied = sorted.starts.empty() ? 0 : sorted.starts.size() - 1;
     for_each_if_worth(occupied, sorted.size(), [&](std::size_t k) {
         double sum = 0;
         for (std::size_t i = sorted.starts[k]; i < sorted.starts[k + 1]; ++i) sum += amount_of(i);
-        values[sorted.pieces[sorted.starts[k]].voxel] = static_cast<float>(sum / volume);
+        values[sorted.pieces[sorted.starts[k]].voxel] = static_cast<Number>(sum / volume);
     });
     return values;
 }
@@ -118,7 +118,7 @@ public:
     double projection() const { return above_ + below_; }
 
     /// Leaf area per volume of each voxel, as seen from there, 1/m.
-    std::vector<float> depths(const CanopyVoxels& voxels, const SortedPieces& sorted) const;
+    std::vector<double> depths(const CanopyVoxels& voxels, const SortedPieces& sorted) const;
 
 private:
     glm::dvec3 towards_;

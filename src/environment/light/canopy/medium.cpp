@@ -171,8 +171,8 @@ private:
              ++x) {
             const std::size_t v = voxel + std::size_t(*x);
             double& beam = beams[*x - first];
-            const double k = double(light_.depth[v]) * length;
-            const double more = light_.added.empty() ? 0 : double(light_.added[v]) * length;
+            const double k = light_.depth[v] * length;
+            const double more = light_.added.empty() ? 0 : light_.added[v] * length;
             const double mean = mean_along(k), met = beam * mean + more * mean_of_added(k, mean);
             flux[*x - first] += weight * (met - beam);
             beam += more - met * k;
@@ -231,7 +231,7 @@ BeamLight send_beams(const CanopyVoxels& voxels, const ParallelLight& light, int
     return result;
 }
 
-BeamLight send_beams(const CanopyVoxels& voxels, std::span<const float> depth, const glm::dvec3& towards, int beams) {
+BeamLight send_beams(const CanopyVoxels& voxels, std::span<const double> depth, const glm::dvec3& towards, int beams) {
     ParallelLight light;
     light.towards = towards;
     light.depth = depth;

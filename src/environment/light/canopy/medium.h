@@ -27,8 +27,8 @@ struct CanopyVoxels {
 /// Parallel light through the voxels. Fluxes are per area across the direction.
 struct ParallelLight {
     glm::dvec3 towards{0, 1, 0};      ///< unit vector to where it comes from: from below, y is negative
-    std::span<const float> depth;     ///< leaf area per volume of each voxel, as seen from that direction, 1/m
-    std::span<const float> added;     ///< flux that each metre of a voxel adds to it; empty: none
+    std::span<const double> depth;    ///< leaf area per volume of each voxel, as seen from that direction, 1/m
+    std::span<const double> added;    ///< flux that each metre of a voxel adds to it; empty: none
     double outside = 1;               ///< flux that enters through the sides, and through the top from above
     std::span<const double> floor{};  ///< from below: flux that enters from each square of the ground
 };
@@ -48,7 +48,7 @@ struct BeamLight {
 /// beams lose, to rounding. The same bytes with any number of threads. `towards` is not nearer to the horizon than
 /// `least_rise`.
 BeamLight send_beams(const CanopyVoxels& voxels, const ParallelLight& light, int beams);
-BeamLight send_beams(const CanopyVoxels& voxels, std::span<const float> depth, const glm::dvec3& towards, int beams);
+BeamLight send_beams(const CanopyVoxels& voxels, std::span<const double> depth, const glm::dvec3& towards, int beams);
 
 /// Sine of the least elevation of light: of what comes from below 2 degrees, leaves meet nothing.
 constexpr double least_rise = 0.0349;

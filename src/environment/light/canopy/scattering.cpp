@@ -11,7 +11,7 @@ namespace espalier::environment {
 namespace {
 
 constexpr int most_generations = 400;
-constexpr float opaque = 1e4f;  // optical depth of a voxel
+constexpr double opaque = 1e4;  // optical depth of a voxel
 
 template <class Number>
 void add_to(std::vector<Number>& sums, const std::vector<Number>& more, double share) {
@@ -67,10 +67,10 @@ CanopyFlux CanopyScattering::darkness() const {
     return flux;
 }
 
-std::vector<float> CanopyScattering::depths(const LeavesSeen& seen) const {
-    std::vector<float> depth = seen.depths(voxels_, pieces_);
+std::vector<double> CanopyScattering::depths(const LeavesSeen& seen) const {
+    std::vector<double> depth = seen.depths(voxels_, pieces_);
     for (std::size_t v = 0; v < is_solid_.size(); ++v) {
-        if (is_solid_[v]) depth[v] = opaque / static_cast<float>(voxels_.edge);
+        if (is_solid_[v]) depth[v] = opaque / voxels_.edge;
     }
     return depth;
 }
@@ -86,7 +86,7 @@ BeamLight CanopyScattering::send(const ParallelLight& light, int beams, const Le
     });
     const double volume = voxels_.edge * voxels_.edge * voxels_.edge, square = voxels_.edge * voxels_.edge;
     for (std::size_t v = 0; v < is_solid_.size(); ++v) {
-        if (is_solid_[v]) sum.solids += volume * double(light.depth[v]) * sent.flux[v];
+        if (is_solid_[v]) sum.solids += volume * light.depth[v] * sent.flux[v];
     }
     const double projection = seen.projection();
     for_each_if_worth(sent.flux.size(), sent.flux.size(), [&](std::size_t v) {
@@ -119,7 +119,7 @@ CanopyFlux CanopyScattering::first(std::span<const LightBeam> beams) const {
     for (const LightBeam& beam : beams) {
         if (beam.photons <= 0) continue;
         const LeavesSeen seen(beam.towards, angles_, options_.clumping);
-        const std::vector<float> depth = depths(seen);
+        const std::vector<double> depth = depths(seen);
         ParallelLight light;
         light.towards = beam.towards;
         light.depth = depth;
@@ -163,20 +163,21 @@ CanopyScattering::Emission CanopyScattering::scattered(const CanopyFlux& flux, s
 }
 
 /// What leaves of each voxel send away from an ordinate's source. A side is seen from ahead as the other from behind.
-std::vector<float> CanopyScattering::added(const Emission& emission, std::size_t ordinate) const {
+std::vector<double> CanopyScattering::added(const Emission& emission, std::size_t ordinate) const {
     const double solid_angle = ordinates_[ordinate].solid_angle;
-    return per_volume(voxels_, pieces_, [&](std::size_t i) {
+    return per_volume<double>(voxels_, pieces_, [&](std::size_t i) {
         const LeavesSeen::Sides behind = seen_[ordinate](pieces_.pieces[i]);
         if (!(whole_[i] > 0)) return 0.0;
         return (emission.front[i] * behind.back + emission.back[i] * behind.front) * solid_angle / whole_[i];
     });
 }
 
-CanopyFlux CanopyScattering::next(const Emission& emission) const {
+CanopyFlux CanopyScattering::spread(const Emission& emission) const {
     CanopyFlux flux = darkness();
     std::vector<double> floor(emission.ground.size());
     for (std::size_t k = 0; k < ordinates_.size(); ++k) {
-        const std::vector<float> depth = depths(seen_[k]), more = added(emission, k);
+        const std::vector<double> depth = depths(seen_[k]);
+        const std::vector<double> more = added(emission, k);
         const double share = ordinates_[k].solid_angle / std::numbers::pi;  // of what a Lambertian ground sends
         ParallelLight light;
         light.towards = ordinates_[k].towards;
@@ -200,7 +201,7 @@ CanopyBandLight CanopyScattering::band(const CanopyFlux& first, std::size_t band
     light.entered = first.entered;
     Emission emission = scattered(first, band, light.ends);
     for (int generation = 0; emission.sum + emission.outside > 0; ++generation) {
-        const CanopyFlux flux = next(emission);
+        const CanopyFlux flux = spread(emission);
         const double from_ground =
             voxels_.edge * voxels_.edge * std::accumulate(emission.ground.begin(), emission.ground.end(), 0.0);
         const double sent = emission.sum - from_ground + flux.entered;

@@ -4,6 +4,7 @@
 #include "environment/light/canopy/leaves.h"
 #include "environment/light/sky/daylight.h"
 
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -62,21 +63,24 @@ public:
     /// generation, so that nothing is lost.
     CanopyBandLight band(const CanopyFlux& first, std::size_t band) const;
 
-private:
     /// Light that leaves surfaces.
     struct Emission {
         std::vector<double> front, back, ground;  ///< by piece; by square of the ground, per m2
         double outside = 0;                       ///< from the ground beside the voxels, per m2
         double sum = 0;                           ///< without what comes from outside
     };
+    /// Where it goes, after Lambert's law.
+    CanopyFlux spread(const Emission& emission) const;
+    /// A side of a piece, m2, as the ordinates together see it.
+    double side(std::size_t piece) const { return whole_[piece] / std::numbers::pi; }
 
+private:
     CanopyFlux darkness() const;
     Emission scattered(const CanopyFlux& flux, std::size_t band, CanopyEnds& ends) const;
-    CanopyFlux next(const Emission& emission) const;
     BeamLight send(const ParallelLight& light, int beams, const LeavesSeen& seen, CanopyFlux& sum) const;
     void look(const LightBeam& beam, const LeavesSeen& seen, const BeamLight& sent, CanopyFlux& sum) const;
-    std::vector<float> depths(const LeavesSeen& seen) const;
-    std::vector<float> added(const Emission& emission, std::size_t ordinate) const;
+    std::vector<double> depths(const LeavesSeen& seen) const;
+    std::vector<double> added(const Emission& emission, std::size_t ordinate) const;
 
     const CanopyVoxels& voxels_;
     SortedPieces pieces_;

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr double least_rise = 0.0349;  // sine of 2 degrees, as the processes have it
+constexpr double least_sky_rise = 0.0349;  // sine of 2 degrees, as the processes have it
 
 /// A table as run.json holds it: JSON writes numbers, texts and lists as TOML does.
 Settings settings_of(const Json& json, const std::string& name, const fs::path& folder) {
@@ -88,7 +88,7 @@ std::optional<SceneSky> sky_of_processes(const Json& processes, double dt, const
         if (!process.contains("sky") || !process["sky"].is_object() || process["sky"].empty()) continue;
         const Json& sky = process["sky"];
         try {
-            auto light = std::make_shared<DaylightSeries>(settings_of(sky, name + ".sky", folder), least_rise,
+            auto light = std::make_shared<DaylightSeries>(settings_of(sky, name + ".sky", folder), least_sky_rise,
                                                           weather_of(sky, processes, folder), nullptr);
             return SceneSky(std::move(light), kind_of(sky), number_or(process, "days", 1), dt);
         } catch (const UserError& error) {

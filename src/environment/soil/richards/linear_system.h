@@ -16,6 +16,7 @@ public:
     explicit SoilLinearSystem(const SoilRows& rows);
 
     WaterBrick& diagonal() { return matrix_.diagonal; }
+    std::vector<SoilMatrix::RankOne>& less() { return matrix_.less; }
     /// Solves to a residual of `tolerance` times that of x = 0; returns the iterations, or -1 if it did not come so
     /// far.
     int solve(const std::array<FaceFluxes, 3>& fluxes, const WaterBrick& b, double tolerance, WaterBrick& x);

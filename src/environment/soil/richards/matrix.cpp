@@ -63,6 +63,11 @@ void SoilMatrix::multiply(WaterBrick& v, WaterBrick& product) const {
     const WaterGrid& grid = rows_.grid();
     grid.for_rows([&](std::size_t row) { rows_.wrap(v.data() + grid.row_begin(row)); });
     grid.for_rows([&](std::size_t row) { multiply_row(row, v.data(), product.data()); });
+    for (const RankOne& one : less) {
+        double along = 0;
+        for (const auto& [c, u] : one.u) along += u * v[c];
+        for (const auto& [c, u] : one.u) product[c] -= one.factor * along * u;
+    }
 }
 
 /// An axis after the other: plain loops over contiguous numbers.

@@ -4,6 +4,8 @@
 #include "environment/soil/richards/cells.h"
 
 #include <array>
+#include <utility>
+#include <vector>
 
 namespace espalier::environment {
 
@@ -27,7 +29,14 @@ public:
         grid.for_rows([&](std::size_t row) { grid.for_cells_of(row, work); });
     }
 
+    /// J lacks factor u u^T for each of these; `solve_columns` does without.
+    struct RankOne {
+        std::vector<std::pair<std::size_t, double>> u;  ///< of some cells
+        double factor = 0;
+    };
+
     WaterBrick diagonal;
+    std::vector<RankOne> less;
     std::array<const FaceCouplings*, 3> faces{};
 
 private:

@@ -37,6 +37,7 @@ bool SoilNewton::solve(const WaterBrick& heads, const ImplicitStep& step) {
     double norm = evaluate(step, step.sinks);
     for (int i = 0; i < most_newton_steps; ++i) {
         if (norm <= newton_tolerance) return true;
+        find_joint_uptake(step.sinks);
         if (jacobian_.solve(fluxes_.faces(), residual_, linear_tolerance, change_) < 0) return false;
         norm = search_line(norm, step);
         if (!std::isfinite(norm)) return false;
@@ -88,6 +89,15 @@ void SoilNewton::forget_uptake() {
 
 void SoilNewton::draw(std::span<SoilSink* const> sinks, double day, double days, double weight) {
     for (SoilSink* sink : sinks) sink->draw(points_, day, days, weight, uptake_, uptake_by_head_);
+}
+
+void SoilNewton::find_joint_uptake(std::span<SoilSink* const> sinks) {
+    jacobian_.less().clear();
+    for (const SoilSink* sink : sinks) {
+        for (JointUptake& joint : sink->joint()) {
+            jacobian_.less().push_back({std::move(joint.cells), layout_.edge() / joint.collar});
+        }
+    }
 }
 
 /// The left side of the step's equation with the sign that Newton's step solves for, and its derivative.

@@ -50,6 +50,7 @@ public:
 private:
     void find_points();
     double evaluate(const ImplicitStep& step, std::span<SoilSink* const> sinks);
+    void find_joint_uptake(std::span<SoilSink* const> sinks);
     double find_residuals(std::size_t row, const ImplicitStep& step);
     double search_line(double norm, const ImplicitStep& step);
     void change_heads(double part);

@@ -5,9 +5,20 @@
 
 #include "environment/soil/richards/movement.h"
 
+#include <cstddef>
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace espalier::environment {
+
+/// How roots that share one collar answer together: where it is not held, more water in one voxel lets it rise, and the
+/// roots in all others take less. The uptake changes by c_i dh_i, as `by_head` of draw() tells, less
+/// c_i sum(c_j dh_j) / collar.
+struct JointUptake {
+    std::vector<std::pair<std::size_t, double>> cells;  ///< c: of all roots in a cell, content per day and cm
+    double collar = 0;                                  ///< of the same unit: of roots and shoot together
+};
 
 class SoilSink {
 public:
@@ -24,6 +35,8 @@ public:
     /// what is added is the part `weight`; the rest is the rate over the substep before. `days` = 0: at that moment.
     virtual void draw(std::span<const SoilPoint> points, double day, double days, double weight, WaterBrick& uptake,
                       WaterBrick& by_head) = 0;
+    /// Of the last draw, those plants whose collar is not held.
+    virtual std::vector<JointUptake> joint() const { return {}; }
     /// The last draw holds: the soil has come on by `days`. Of the rate over that time it is the part `weight`; the
     /// rest is the rate over the time before.
     virtual void accept(double days, double weight) = 0;

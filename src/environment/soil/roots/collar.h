@@ -33,6 +33,8 @@ public:
     virtual ~CollarEnd() = default;
     /// Returns the total head at the collar, cm, where the shoot takes what the roots supply.
     virtual double meet(const CollarView& supply) = 0;
+    /// How much more it takes where that head rises, cm2/d.
+    virtual double by_head() const = 0;
 };
 
 }  // namespace espalier::environment

@@ -78,11 +78,14 @@ void PlantUptake::solve(std::span<const SoilPoint> points, UptakeModel model, co
     if (roots_.pieces.empty()) return;
     begin(points);
     water_.demand = collar.held ? std::nan("") : demand;
+    shoot_by_head_.reset();
     if (model != UptakeModel::network) return solve_macroscopic(points, model, collar, feddes, demand, held_head);
     solve_network(points, [&](const CollarView& view) {
         if (collar.held) return held_head + roots_.collar_height;
         const double limit = collar.limit + roots_.collar_height;
-        return view.conductance > 0 ? std::max(view.head - demand / view.conductance, limit) : limit;
+        const double wanted = view.conductance > 0 ? view.head - demand / view.conductance : limit;
+        shoot_by_head_ = wanted > limit ? std::optional(0.0) : std::nullopt;
+        return std::max(wanted, limit);
     });
 }
 
@@ -90,6 +93,20 @@ void PlantUptake::solve_under(std::span<const SoilPoint> points, CollarEnd& shoo
     if (roots_.pieces.empty()) return;
     begin(points);
     solve_network(points, [&](const CollarView& view) { return shoot.meet(view); });
+    shoot_by_head_ = shoot.by_head();
+}
+
+bool PlantUptake::answer_together(std::vector<double>& by_collar, double& collar) const {
+    if (!shoot_by_head_ || roots_.pieces.empty()) return false;
+    // What pieces take of soil with a head of 1 while the collar has 0.
+    std::vector<RootPiece> pieces = roots_.pieces;
+    for (RootPiece& piece : pieces) piece.outside = 1;
+    HydraulicTree tree;
+    RootFlow flow;
+    collar = tree.look(pieces).conductance + *shoot_by_head_;
+    tree.flow(pieces, 0, flow);
+    by_collar = std::move(flow.uptake);
+    return collar > 0;
 }
 
 void PlantUptake::pass(double days, double weight, double before) {

@@ -6,6 +6,7 @@
 #include "environment/soil/roots/zone.h"
 
 #include <functional>
+#include <optional>
 #include <span>
 
 namespace espalier::environment {
@@ -51,6 +52,9 @@ public:
                const FeddesHeads& feddes, double demand, double held_head);
     /// The same with the network of roots under a shoot that takes what it needs.
     void solve_under(std::span<const SoilPoint> points, CollarEnd& shoot);
+    /// After a network was solved whose collar is not held: the change of what each piece takes with the collar's head,
+    /// cm2/d, of the sign of more water; `collar` gets that of roots and shoot together. False: the collar is held.
+    bool answer_together(std::vector<double>& by_collar, double& collar) const;
     /// So many days have passed, in which the roots took up `weight` times what was solved last and the rest times what
     /// they took up before; `before`: that of the plant, cm3/d.
     void pass(double days, double weight, double before);
@@ -76,10 +80,11 @@ private:
     HydraulicTree tree_;
     RootFlow flow_;
     PlantWater water_;
-    std::vector<double> moved_;  ///< how far the head of each piece moved in the last step, relative
-    std::vector<double> rates_;  ///< at which each piece took up water last, cm3/d
-    std::vector<double> taken_;  ///< by each piece in the step, cm3
-    double days_ = 0;            ///< of the step that have passed
+    std::vector<double> moved_;            ///< how far the head of each piece moved in the last step, relative
+    std::vector<double> rates_;            ///< at which each piece took up water last, cm3/d
+    std::vector<double> taken_;            ///< by each piece in the step, cm3
+    double days_ = 0;                      ///< of the step that have passed
+    std::optional<double> shoot_by_head_;  ///< of the last solution; none: the collar is held
     bool begun_ = false;
 };
 

@@ -45,6 +45,7 @@ public:
     /// Of the substep that is solved next.
     void set_substep(double days, double weight);
     double meet(const CollarView& supply) override;
+    double by_head() const override { return network_.by_collar_head(); }
 
     /// What all leaves would give of wet plants, cm3/d.
     double demand() const { return demand_; }

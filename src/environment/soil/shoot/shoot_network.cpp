@@ -120,6 +120,7 @@ void ShootNetwork::eliminate(const CollarView& supply) {
         (is_first ? collar_diagonal : rows_[nodes_[i].bearer].diagonal) += part * row.by_bearer;
         (is_first ? collar_rest : rest[nodes_[i].bearer]) += part * rest[i];
     }
+    by_collar_head_ = std::max(0.0, -collar_diagonal - supply.conductance);
     // A clamped change is passed on: what a node bears moves with it.
     collar_change_ = clamped(-collar_rest / collar_diagonal, collar_change_, collar_reach_);
     for (std::size_t i = 0; i < nodes_.size(); ++i) {

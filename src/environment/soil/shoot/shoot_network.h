@@ -58,6 +58,8 @@ public:
     const std::vector<ShootNode>& nodes() const { return nodes_; }
     const ShootFlow& flow() const { return flow_; }
     double collar_height() const { return collar_height_; }
+    /// How what it takes through the collar changes with the head there, by the last of Newton's steps, cm2/d.
+    double by_collar_head() const { return by_collar_head_; }
     /// Everything at rest with this total head, cm.
     void rest_at(double total_head);
     /// With roots that supply water as `supply` says. `days`: of the substep, 0 for a moment in which nothing is
@@ -89,7 +91,7 @@ private:
     std::vector<double> change_, reach_, rest_, before_, leaf_heads_;
     std::vector<LossOfHead> losses_;
     double collar_rest_ = 0, collar_change_ = 0, collar_reach_ = 0, collar_before_ = 0, scale_ = 0, driven_ = 0,
-           highest_ = 0;
+           highest_ = 0, by_collar_head_ = 0;
 };
 
 }  // namespace espalier::environment

@@ -18,13 +18,13 @@ glm::dvec3 from_zenith(double zenith, double round) {
 }
 
 /// Leaf area here and there, the same for the same number.
-std::vector<float> scattered_leaves(std::size_t count) {
-    std::vector<float> depth(count);
-    for (std::size_t i = 0; i < count; ++i) depth[i] = (i * 2654435761u >> 7) % 3 ? 0 : float(i * 40503u % 97) / 10;
+std::vector<double> scattered_leaves(std::size_t count) {
+    std::vector<double> depth(count);
+    for (std::size_t i = 0; i < count; ++i) depth[i] = (i * 2654435761u >> 7) % 3 ? 0 : double(i * 40503u % 97) / 10;
     return depth;
 }
 
-double met_by_voxels(const CanopyVoxels& voxels, std::span<const float> depth, const BeamLight& light) {
+double met_by_voxels(const CanopyVoxels& voxels, std::span<const double> depth, const BeamLight& light) {
     double sum = 0;
     for (std::size_t v = 0; v < depth.size(); ++v) sum += depth[v] * light.flux[v];
     return sum * voxels.edge * voxels.edge * voxels.edge;
@@ -36,7 +36,7 @@ TEST_CASE("an even periodic canopy lets exp(-depth / cos zenith) through, whatev
     for (const double edge : {0.5, 0.3, 0.1}) {
         const int high = int(std::round(3 / edge));
         const CanopyVoxels voxels{{0, 0, 0}, {7, high, 4}, edge, true};
-        const std::vector<float> depth(voxels.count(), 0.5f);
+        const std::vector<double> depth(voxels.count(), 0.5f);
         for (const double zenith : {0.0, 0.3, 0.8, 1.2, 1.45}) {
             const BeamLight light = send_beams(voxels, depth, from_zenith(zenith, 0.4), 2);
             const double exact = std::exp(-0.5 * high * edge / std::cos(zenith));
@@ -55,7 +55,7 @@ TEST_CASE("an even periodic canopy lets exp(-depth / cos zenith) through, whatev
 TEST_CASE("what leaves meet is what the beams lose", "[canopy]") {
     for (const bool periodic : {false, true}) {
         const CanopyVoxels voxels{{-3, 0.5, 2}, {9, 6, 5}, 0.4, periodic};
-        const std::vector<float> depth = scattered_leaves(voxels.count());
+        const std::vector<double> depth = scattered_leaves(voxels.count());
         for (const double zenith : {0.0, 0.5, 1.2, 1.5}) {
             for (const double round : {0.0, 1.0, 3.7}) {
                 const BeamLight light = send_beams(voxels, depth, from_zenith(zenith, round), 3);
@@ -69,7 +69,7 @@ TEST_CASE("what leaves meet is what the beams lose", "[canopy]") {
 
 TEST_CASE("few leaves meet all of the light, in every voxel and from every side", "[canopy]") {
     const CanopyVoxels voxels{{0, 0, 0}, {5, 4, 6}, 0.25, false};
-    const std::vector<float> depth(voxels.count(), 1e-6f);
+    const std::vector<double> depth(voxels.count(), 1e-6f);
     for (const double zenith : {0.2, 0.9, 1.5}) {
         for (const double round : {0.1, 2.0, 4.0}) {
             for (const double flux : send_beams(voxels, depth, from_zenith(zenith, round), 1).flux) {
@@ -81,7 +81,7 @@ TEST_CASE("few leaves meet all of the light, in every voxel and from every side"
 
 TEST_CASE("a single voxel of leaves shades the voxel behind it and no other", "[canopy]") {
     const CanopyVoxels voxels{{0, 0, 0}, {3, 4, 3}, 1, false};
-    std::vector<float> depth(voxels.count(), 0);
+    std::vector<double> depth(voxels.count(), 0);
     const std::size_t dense = voxels.number_of({1.5, 2.5, 1.5});
     depth[dense] = 2;
     const BeamLight light = send_beams(voxels, depth, {0, 1, 0}, 2);
@@ -94,7 +94,7 @@ TEST_CASE("a single voxel of leaves shades the voxel behind it and no other", "[
 
 TEST_CASE("beams leave the same light with one thread and with many", "[canopy]") {
     const CanopyVoxels voxels{{0, 0, 0}, {20, 15, 18}, 0.2, true};
-    const std::vector<float> depth = scattered_leaves(voxels.count());
+    const std::vector<double> depth = scattered_leaves(voxels.count());
     const auto sent = [&](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         return send_beams(voxels, depth, from_zenith(0.9, 0.5), 2);
@@ -105,7 +105,7 @@ TEST_CASE("beams leave the same light with one thread and with many", "[canopy]"
 
 TEST_CASE("light from straight above, along faces and through edges of voxels crosses all of them once", "[canopy]") {
     const CanopyVoxels voxels{{0, 0, 0}, {4, 4, 4}, 1, true};
-    const std::vector<float> depth(voxels.count(), 1);
+    const std::vector<double> depth(voxels.count(), 1);
     for (const glm::dvec3& towards :
          {glm::dvec3(0, 1, 0), glm::dvec3(1, 1, 0), glm::dvec3(-1, 1, 1), glm::dvec3(0, 2, -1)}) {
         const glm::dvec3 unit = glm::normalize(towards);
