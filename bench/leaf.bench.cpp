@@ -199,12 +199,13 @@ void day_of_a_plant(benchmark::State& state) {
 }
 BENCHMARK(day_of_a_plant)->UseRealTime();
 
-/// Leaves of a given potential, and roots from which a given transpiration is drawn.
+/// The same where leaves have about the potential that they find there, and nothing answers them: roots take what they
+/// ask for, or what the soil gives.
 void day_of_its_parts(benchmark::State& state) {
     AskingPlants plants = one_large_plant();
     for (auto _ : state) {
-        hours_of(plants, of_light + of_leaves);
-        hours_of(plants, of_soil + of_roots + "collar = { transpiration = 2500, limit = -15000 }\n");
+        hours_of(plants, of_light + of_soil + of_roots + "collar = { leaves = \"leaves\" }\n" + of_leaves +
+                             "potential = -1.5\n");
     }
 }
 BENCHMARK(day_of_its_parts)->UseRealTime();
