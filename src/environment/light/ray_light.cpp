@@ -23,6 +23,7 @@ namespace {
 
 constexpr double least_elevation = 0.0349;  // sine of 2 degrees
 constexpr int trials = 8;
+constexpr double rays_per_path = 4;  // from organs
 constexpr std::uint32_t most_paths = 1U << 27;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double bytes_per_triangle = 340;  // corners twice, owner, and Embree's boxes
@@ -30,7 +31,8 @@ constexpr double bytes_per_triangle = 340;  // corners twice, owner, and Embree'
 LightPaths::Options read_path_options(const Settings& settings, const EnvironmentContext& context) {
     LightPaths::Options options;
     options.ground = settings.number_or("ground", 0);
-    options.residual = settings.number_or("residual", 0.001, Range::between(1e-9, 0.5));
+    options.residual = settings.number_or("residual", 0.25, Range::between(1e-9, 0.5));
+    options.from_organs = true;
     options.evenly = settings.choice_or("sampling", "sobol", {"sobol", "random"}) == "sobol";
     if (!settings.flag_or("periodic", false)) return options;
     if (!context.domain) {
@@ -219,6 +221,7 @@ private:
         sensor_sums_.assign(sensor_cells() * bands(), 0);
         for (std::uint32_t trial = 0; trial < trials; ++trial) {
             paths_.trace(std::max(1U, count / trials), static_cast<std::uint32_t>(mix(seed, trial)));
+            paths_.trace_from_organs(rays_per_path * count / trials, trial, seed);
             add_trial(trial);
             add_balance();
             add_sensors();

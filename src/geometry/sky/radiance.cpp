@@ -105,16 +105,26 @@ glm::dvec3 sunflower_direction(std::size_t i, double height) {
     return {across * cosine, height, across * sine};
 }
 
+glm::dvec3 SkyWindow::direction(const glm::dvec3& middle, double rise, double turn) const {
+    if (is_point()) return middle;
+    const double across = std::sqrt(std::max(0.0, 1 - rise * rise)) / std::hypot(middle.x, middle.z);
+    const auto [sine, cosine] = math::sine_and_cosine((2 * turn - 1) * half_turn);
+    return {across * (cosine * middle.x - sine * middle.z), rise, across * (sine * middle.x + cosine * middle.z)};
+}
+
 std::vector<SkyPart> sky_parts(std::int64_t rings, std::int64_t around) {
     std::vector<SkyPart> parts;
     const std::vector<GaussPoint> points = gauss_points(rings);
     const double step = 2 * pi / static_cast<double>(around);
+    double above = 1;  // Gauss's points run downwards
     for (std::size_t ring = 0; ring < points.size(); ++ring) {
         const double y = points[ring].at, across = std::sqrt(1 - y * y);
+        const SkyWindow window{std::max(0.0, above - points[ring].weight), above, step / 2};
+        above = window.lowest;
         const double turned = ring % 2 == 0 ? 0.25 : 0.75;  // neighbouring rings do not stand above each other
         for (std::int64_t i = 0; i < around; ++i) {
             const auto [sine, cosine] = math::sine_and_cosine(step * (static_cast<double>(i) + turned));
-            parts.push_back({{across * cosine, y, across * sine}, step * points[ring].weight});
+            parts.push_back({{across * cosine, y, across * sine}, step * points[ring].weight, window});
         }
     }
     return parts;

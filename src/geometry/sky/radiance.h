@@ -56,15 +56,27 @@ struct GaussPoint {
 };
 std::vector<GaussPoint> gauss_points(std::int64_t count);
 
-/// A part of the sky.
+/// The directions between two heights and two turns about the vertical; by default, one direction.
+struct SkyWindow {
+    double lowest = 0, highest = 0;  ///< sines of the elevation; both 0: there is but the middle
+    double half_turn = 0;            ///< radians to both sides of the middle
+
+    bool is_point() const { return !(highest > lowest); }
+    /// The direction whose elevation has the sine `rise`, at a share of the turn; `middle` is a unit vector that is not
+    /// vertical. The middle itself where there is no other.
+    glm::dvec3 direction(const glm::dvec3& middle, double rise, double turn) const;
+};
+
+/// A part of the sky. The windows of all of them cover it without gaps.
 struct SkyPart {
     glm::dvec3 towards;  ///< its middle, a unit vector
     double solid_angle;  ///< sr
+    SkyWindow window{};
 };
 
 /// The upper half of the sphere in `rings` (1 to 64) by `around` parts. The cosines of the rings' zenith angles and
 /// their solid angles are those of Gauss's quadrature, so sums over polynomials of the cosine are exact: the cosines
-/// themselves add up to pi.
+/// themselves add up to pi. A ring's window has its solid angle.
 std::vector<SkyPart> sky_parts(std::int64_t rings, std::int64_t around);
 
 /// The share of each part in the light that falls on level ground from a sky; they add up to 1.

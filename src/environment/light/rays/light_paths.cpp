@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -23,6 +24,38 @@ glm::dvec3 lambertian(const glm::dvec3& normal, double u, double v) {
     const glm::dvec3 x = any_across(normal), y = glm::cross(normal, x);
     const double across = std::sqrt(u), angle = 2 * std::numbers::pi * v;
     return across * math::cos(angle) * x + across * math::sin(angle) * y + std::sqrt(1 - u) * normal;
+}
+
+bool has_light(const LightPath& path) {
+    return std::any_of(path.weights.begin(), path.weights.end(), [](double weight) { return weight > 0; });
+}
+
+using OpticsOfBands = std::array<SideOptics, most_bands>;
+
+bool is_black(const OpticsOfBands& optics) {
+    return std::none_of(optics.begin(), optics.end(),
+                        [](const SideOptics& of) { return of.reflectance > 0 || of.transmittance > 0; });
+}
+
+/// Takes from a path what stays where it meets something, and returns that; what is transmitted goes to `through`, the
+/// rest is reflected. Of much light a share stays; of little all or nothing, so that paths end and none of it is lost.
+BandWeights divide(LightPath& path, LightPath& through, const OpticsOfBands& optics,
+                   const std::array<double, 4>& sample) {
+    BandWeights kept{};
+    through.weights = {};
+    for (std::size_t b = 0; b < most_bands; ++b) {
+        const auto [reflected, transmitted] = optics[b];
+        const double on = reflected + transmitted;
+        double& light = path.weights[b];
+        if (light > path.enough[b]) {
+            kept[b] = (1 - on) * light;
+        } else if (sample[3] >= on) {
+            kept[b] = light;
+        }
+        light -= kept[b];
+        if (sample[0] * on >= reflected) std::swap(light, through.weights[b]);
+    }
+    return kept;
 }
 
 std::size_t count_cells(std::span<const LightSensor> sensors) {
@@ -50,46 +83,127 @@ std::size_t LightPaths::set(const LitTriangles& triangles, std::size_t slots, co
     for (const Lamp& lamp : lamps) highest = std::max(highest, lamp.place.y + 1e-3);
     const std::size_t built = space_.set(triangles, sensors_, highest);
     sources_.set(light, lamps, lamp_seconds, factors, {space_.centre(), space_.radius(), space_.period()});
+    if (options_.from_organs) rays_.set(triangles, slots, sources_);
     tally_.begin(slots, 1);
     return built;
 }
 
 void LightPaths::trace(std::uint32_t paths, std::uint32_t seed) {
     tally_.begin(slots_, paths);
+    paths_ = paths;
     if (sources_.empty()) return;
     std::mutex adding;
     for_in_parallel(tbb::blocked_range<std::uint32_t>(0, paths), [&](const tbb::blocked_range<std::uint32_t>& part) {
         Ends ends;
         for (std::uint32_t number = part.begin(); number != part.end(); ++number) {
             end_if_asked();
-            follow(number, seed, ends);
+            const Numbers numbers{number, seed, options_.evenly};
+            LightPath path = sources_.path(numbers(0));
+            for (std::size_t b = 0; b < bands(); ++b) path.enough[b] = options_.residual * path.weights[b];
+            follow(path, std::nullopt, numbers, ends);
         }
         const std::lock_guard guard(adding);
         tally_.add(ends);
     });
 }
 
-/// A path begins with all light of its source. Wherever it meets something, a part of it is absorbed there, and the
-/// rest goes on in one direction, by chance that of what is reflected or of what is transmitted, until little is left:
-/// absorbed (leaves, stems, solids) + soil + escaped = incoming.
-void LightPaths::follow(std::uint32_t number, std::uint32_t seed, Ends& ends) {
-    const auto sample_of = [&](std::uint32_t bounce) {
-        const auto own = static_cast<std::uint32_t>(mix(seed, bounce));
-        return options_.evenly ? scrambled_sobol(number, own) : independent_numbers(number, own);
-    };
-    LightPath path = sources_.path(sample_of(0));
-    tally_.add(ends.brought, path.weights);
-    if (path.origin.y < space_.soil()) return tally_.add(ends.soil, path.weights);  // it met the soil before
-    for (std::uint32_t bounce = 1;; ++bounce) {
-        const LitSpace::Met met = space_.advance(path, [&](double to) { count_at_sensors(path, to); });
-        if (met.kind == LitSpace::Met::Kind::sky) return tally_.add(ends.escaped, path.weights);
-        const auto sample = [&] { return sample_of(bounce); };  // where the path ends, nobody asks for it
-        const bool goes_on = met.kind == LitSpace::Met::Kind::soil ? scatter_from_soil(path, sample, ends)
-                                                                   : scatter(path, met.hit, sample, ends);
-        if (!goes_on) return;
-        if (bounce == options_.depth) return tally_.add(ends.escaped, path.weights);
-        path.is_first = false;
+/// Rays of one trial from an organ to the sources of one kind.
+struct LightPaths::Sender {
+    const OrganRays::Organ& organ;
+    SourceKind kind;
+    std::uint32_t first, count;  ///< numbers of its rays
+    std::uint32_t seed;
+};
+
+void LightPaths::trace_from_organs(double rays, std::uint32_t trial, std::uint32_t seed) {
+    if (sources_.empty()) return;
+    rays_.share_out(rays);
+    const std::span<const OrganRays::Organ> organs = rays_.organs();
+    std::mutex adding;
+    for_in_parallel(tbb::blocked_range<std::size_t>(0, organs.size()),
+                    [&](const tbb::blocked_range<std::size_t>& part) {
+                        Ends ends;
+                        for (std::size_t i = part.begin(); i != part.end(); ++i) {
+                            for (std::uint32_t k = 0; k < source_kinds; ++k) {
+                                const std::uint32_t count = organs[i].rays[k];
+                                const auto own = static_cast<std::uint32_t>(mix(mix(seed, organs[i].key), k));
+                                send({organs[i], static_cast<SourceKind>(k), trial * count, count, own}, ends);
+                            }
+                        }
+                        const std::lock_guard guard(adding);
+                        tally_.add(ends);
+                    });
+}
+
+/// What comes along a ray to a source is scattered from there as that of any path, so nothing is counted twice: paths
+/// from the sources themselves end where they first meet an organ.
+void LightPaths::send(const Sender& sender, Ends& ends) {
+    const auto& [organ, kind, first, count, seed] = sender;
+    const double of_ray = paths_ * organ.open[static_cast<std::size_t>(kind)] / (sources_.light() * count);
+    for (std::uint32_t number = first; number != first + count; ++number) {
+        end_if_asked();
+        const Numbers numbers{number, seed, options_.evenly};
+        const std::array<double, 4> sample = numbers(0);
+        const OrganRays::Begin begin = rays_.begin(organ, kind, sample[2], sample[3]);
+        const SourceRay ray = sources_.seek(kind, begin.patch, begin.open, begin.place, sample[0], sample[1]);
+        if (!space_.is_open(begin.place, ray.towards, ray.length)) continue;
+        const auto met = space_.met_at(begin.place, ray.towards);
+        if (met && triangles_->number(*met) != begin.triangle) continue;
+        LightPath path{space_.inside(begin.place), -ray.towards, space_.near(), kind == SourceKind::sun};
+        path.is_sought = true;
+        for (std::size_t b = 0; b < bands(); ++b) {
+            path.weights[b] = of_ray * ray.light[b];
+            path.enough[b] = options_.residual * path.weights[b];
+        }
+        follow(path, begin.triangle, numbers, ends);
     }
+}
+
+std::array<double, 4> LightPaths::Numbers::operator()(std::uint32_t bounce) const {
+    const auto own = static_cast<std::uint32_t>(mix(seed, bounce));
+    return evenly ? scrambled_sobol(path, own) : independent_numbers(path, own);
+}
+
+/// A path begins with all light of its source, perhaps at a triangle. Wherever it meets something, a part of it stays
+/// there, and each band of the rest is by chance reflected or transmitted. Bands that part company go on as paths of
+/// their own, so that in each of them absorbed (leaves, stems, solids) + soil + escaped = incoming.
+void LightPaths::follow(LightPath path, std::optional<std::size_t> triangle, const Numbers& numbers, Ends& ends) {
+    std::array<LightPath, most_bands> waiting;
+    std::size_t count = 0;
+    if (triangle) tally_.add(ends.brought, path.weights);
+    bool goes_on =
+        triangle ? scatter(path, waiting[count], *triangle, numbers, ends) : go_on(path, waiting[count], numbers, ends);
+    while (true) {
+        if (waiting[count].bounce > 0) ++count;
+        if (!goes_on) {
+            if (count == 0) return;
+            path = waiting[--count];
+        }
+        waiting[count].bounce = 0;
+        goes_on = go_on(path, waiting[count], numbers, ends);
+    }
+}
+
+/// To what a path meets next and on from there; false where it ends. `parted` is what goes another way; it has no
+/// bounce if nothing does.
+bool LightPaths::go_on(LightPath& path, LightPath& parted, const Numbers& numbers, Ends& ends) {
+    const bool is_first = path.bounce == 0;
+    if (is_first && path.origin.y < space_.soil()) {  // it met the soil before
+        tally_.add(ends.brought, path.weights);
+        tally_.add(ends.soil, path.weights);
+        return false;
+    }
+    const LitSpace::Met met = space_.advance(path, [&](double to) { count_at_sensors(path, to); });
+    if (is_first) {
+        if (options_.from_organs && path.can_be_sought && met.kind == LitSpace::Met::Kind::triangle) return false;
+        tally_.add(ends.brought, path.weights);
+    }
+    if (met.kind == LitSpace::Met::Kind::sky) {
+        tally_.add(ends.escaped, path.weights);
+        return false;
+    }
+    return met.kind == LitSpace::Met::Kind::soil ? scatter_from_soil(path, numbers, ends)
+                                                 : scatter(path, parted, triangles_->number(met.hit), numbers, ends);
 }
 
 void LightPaths::count_at_sensors(const LightPath& path, double to) {
@@ -99,97 +213,85 @@ void LightPaths::count_at_sensors(const LightPath& path, double to) {
     }
 }
 
-SideOptics LightPaths::optics_of(const LitTriangles::Owner& owner, bool on_back, std::size_t band) const {
-    if (owner.kind == LitKind::solid) return {optics_.solid(band), 0};
-    return optics_.of(owner.kind, owner.material, band)[on_back];
+OpticsOfBands LightPaths::optics_of(const LitTriangles::Owner& owner, bool on_back) const {
+    OpticsOfBands optics;
+    for (std::size_t b = 0; b < bands(); ++b) {
+        optics[b] = owner.kind == LitKind::solid ? SideOptics{optics_.solid(b), 0}
+                                                 : optics_.of(owner.kind, owner.material, b)[on_back];
+    }
+    return optics;
 }
 
-void LightPaths::note_meeting(const LightPath& path, const LitTriangles::Owner& owner, bool on_back) {
-    if (owner.kind == LitKind::solid || (options_.only_scattered && path.is_first)) return;
-    if (on_back && owner.kind == LitKind::leaf) {
-        tally_.meet_back(owner.slot, path.weights);
-    } else {
-        tally_.meet_front(owner.slot, path.weights);
-    }
-    if (path.is_first) tally_.meet_first(owner.slot, path);
+/// What a path brings to a surface, and what of it stays there.
+void LightPaths::record(const LightPath& met, const LitTriangles::Owner& owner, bool on_back, const BandWeights& kept,
+                        Ends& ends) {
+    if (owner.kind == LitKind::solid) return tally_.add(ends.solids, kept);
+    const bool is_first = met.bounce == 0, is_behind = on_back && owner.kind == LitKind::leaf;
+    if (is_first && met.is_sought) return tally_.meet_directly(owner.slot, met, is_behind, kept);
+    if (is_first && options_.only_scattered) return tally_.add(ends.escaped, kept);
+    is_behind ? tally_.meet_back(owner.slot, met.weights) : tally_.meet_front(owner.slot, met.weights);
+    tally_.absorb(owner.slot, kept);
+    if (is_first) tally_.meet_first(owner.slot, met);
 }
 
-/// False where the path ends.
-template <class Sample>
-bool LightPaths::scatter(LightPath& path, const RayScene::Hit& hit, const Sample& sample_of, Ends& ends) {
-    const LitTriangles::Owner& owner = triangles_->owner(hit);
-    const glm::dvec3 normal = triangles_->normal(hit);
-    const bool on_back = glm::dot(path.direction, normal) > 0;
-    note_meeting(path, owner, on_back);
-    std::array<SideOptics, most_bands> optics;
-    double back = 0, through = 0;
-    for (std::size_t b = 0; b < bands(); ++b) {
-        optics[b] = optics_of(owner, on_back, b);
-        back += path.weights[b] * optics[b].reflectance;
-        through += path.weights[b] * optics[b].transmittance;
-    }
-    if (!(back + through > 0) || normal == glm::dvec3(0)) {
-        absorb(owner, path, ends);
+bool LightPaths::scatter(LightPath& path, LightPath& parted, std::size_t triangle, const Numbers& numbers, Ends& ends) {
+    const LitTriangles::Owner& owner = triangles_->owner(triangle);
+    const glm::dvec3 normal = triangles_->normal(triangle);
+    const bool on_back = glm::dot(path.direction, normal) > 0, is_last = path.bounce + 1 == options_.depth;
+    const LightPath met = path;
+    const OpticsOfBands optics = optics_of(owner, on_back);
+    if (is_black(optics) || normal == glm::dvec3(0)) {
+        record(met, owner, on_back, met.weights, ends);
         return false;
     }
-    const std::array<double, 4> sample = sample_of();
-    const double chance = back / (back + through);
-    const bool turns_back = sample[0] < chance;
-    LightPath absorbed = path;
-    for (std::size_t b = 0; b < bands(); ++b) {
-        const auto [reflected, transmitted] = optics[b];
-        absorbed.weights[b] *= 1 - reflected - transmitted;
-        path.weights[b] *= turns_back ? reflected / chance : transmitted / (1 - chance);
-    }
-    absorb(owner, absorbed, ends);
-    if (is_spent(path)) {
-        absorb(owner, path, ends);
-        return false;
-    }
+    const std::array<double, 4> sample = numbers(++path.bounce);
+    parted = path;
+    const BandWeights kept = divide(path, parted, optics, sample);
+    record(met, owner, on_back, kept, ends);
     const glm::dvec3 facing = on_back ? -normal : normal;
-    path.direction = lambertian(turns_back ? facing : -facing, sample[1], sample[2]);
-    path.near = space_.near();
-    return true;
+    path.near = parted.near = space_.near();
+    path.direction = lambertian(facing, sample[1], sample[2]);
+    parted.direction = lambertian(-facing, sample[1], sample[2]);
+    parted.origin = path.origin;
+    if (is_last) {
+        tally_.add(ends.escaped, path.weights);
+        tally_.add(ends.escaped, parted.weights);
+        parted.bounce = 0;
+        return false;
+    }
+    if (!has_light(path)) std::swap(path, parted);
+    if (!has_light(parted)) parted.bounce = 0;
+    return has_light(path);
 }
 
-template <class Sample>
-bool LightPaths::scatter_from_soil(LightPath& path, const Sample& sample_of, Ends& ends) {
-    LightPath absorbed = path;
-    for (std::size_t b = 0; b < bands(); ++b) {
-        const double reflectance = optics_.soil(path.origin, b);
-        absorbed.weights[b] *= 1 - reflectance;
-        path.weights[b] *= reflectance;
-    }
-    tally_.add(ends.soil, absorbed.weights);
-    if (is_spent(path)) {
+bool LightPaths::scatter_from_soil(LightPath& path, const Numbers& numbers, Ends& ends) {
+    OpticsOfBands optics;
+    for (std::size_t b = 0; b < bands(); ++b) optics[b] = {optics_.soil(path.origin, b), 0};
+    if (is_black(optics)) {
         tally_.add(ends.soil, path.weights);
         return false;
     }
-    const std::array<double, 4> sample = sample_of();
+    const std::array<double, 4> sample = numbers(++path.bounce);
+    LightPath nothing;
+    tally_.add(ends.soil, divide(path, nothing, optics, sample));
     path.direction = lambertian({0, 1, 0}, sample[1], sample[2]);
     path.near = space_.near();
-    return true;
-}
-
-bool LightPaths::is_spent(const LightPath& path) const {
-    const auto of_band = path.weights.begin();
-    return *std::max_element(of_band, of_band + static_cast<std::ptrdiff_t>(bands())) < options_.residual;
-}
-
-void LightPaths::absorb(const LitTriangles::Owner& owner, const LightPath& path, Ends& ends) {
-    if (owner.kind == LitKind::solid) return tally_.add(ends.solids, path.weights);
-    if (options_.only_scattered && path.is_first) return tally_.add(ends.escaped, path.weights);
-    tally_.absorb(owner.slot, path.weights);
+    if (path.bounce != options_.depth) return has_light(path);
+    tally_.add(ends.escaped, path.weights);
+    return false;
 }
 
 double LightPaths::open_light(const glm::dvec3& place) const {
+    constexpr std::uint32_t of_part = 8;
+    constexpr double seen = 0.5;  // the mean of a small leaf's area over all directions, as the light sees it
+    std::uint64_t seed = 0;
+    for (int axis = 0; axis < 3; ++axis) seed = mix(seed, std::bit_cast<std::uint64_t>(place[axis]));
     double sum = 0;
-    sources_.for_beams([&](const LightBeam& beam) {
-        LightPath path{place, beam.towards, space_.near()};
-        constexpr double seen = 0.5;  // the mean of a small leaf's area over all directions, as the light sees it
-        const LitSpace::Met met = space_.advance(path, [](double) {});
-        if (met.kind == LitSpace::Met::Kind::sky) sum += seen * beam.photons;
-    });
+    sources_.for_directions(
+        of_part, [&](std::uint32_t i) { return scrambled_sobol(i, static_cast<std::uint32_t>(seed)); },
+        [&](const glm::dvec3& towards, double photons) {
+            if (space_.is_open(place, towards, std::numeric_limits<double>::infinity())) sum += seen * photons;
+        });
     return sum;
 }
 
