@@ -23,7 +23,6 @@ namespace {
 
 constexpr double least_elevation = 0.0349;  // sine of 2 degrees
 constexpr int trials = 8;
-constexpr double rays_per_path = 4;  // from organs
 constexpr std::uint32_t most_paths = 1U << 27;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double bytes_per_triangle = 340;  // corners twice, owner, and Embree's boxes
@@ -221,7 +220,7 @@ private:
         sensor_sums_.assign(sensor_cells() * bands(), 0);
         for (std::uint32_t trial = 0; trial < trials; ++trial) {
             paths_.trace(std::max(1U, count / trials), static_cast<std::uint32_t>(mix(seed, trial)));
-            paths_.trace_from_organs(rays_per_path * count / trials, trial, seed);
+            paths_.trace_from_organs(trial, seed);
             add_trial(trial);
             add_balance();
             add_sensors();

@@ -27,7 +27,7 @@ inline glm::dvec3 wrapped(glm::dvec3 place, const Box& period) {
 struct LightPath {
     glm::dvec3 origin, direction;
     double near = 0;  ///< nothing is met before
-    bool from_sun = false;
+    bool from_sun = false, from_lamp = false;
     bool can_be_sought = false;  ///< organs find its source by rays of their own
     bool is_sought = false;      ///< begins where such a ray did, and meets the organ at once
     std::uint32_t bounce = 0;    ///< how often it has met something

@@ -58,6 +58,15 @@ BandWeights divide(LightPath& path, LightPath& through, const OpticsOfBands& opt
     return kept;
 }
 
+constexpr double rays_per_path = 4, points_per_path = 200;
+
+/// 0, 1/2, 1/4, 3/4, 1/8 ...
+double radical_inverse(std::uint32_t i) {
+    double inverse = 0, place = 0.5;
+    for (; i > 0; i /= 2, place /= 2) inverse += i % 2 * place;
+    return inverse;
+}
+
 std::size_t count_cells(std::span<const LightSensor> sensors) {
     std::size_t cells = 0;
     for (const LightSensor& sensor : sensors) cells += sensor.count();
@@ -92,6 +101,7 @@ void LightPaths::trace(std::uint32_t paths, std::uint32_t seed) {
     tally_.begin(slots_, paths);
     paths_ = paths;
     if (sources_.empty()) return;
+    if (options_.from_organs) rays_.share_out(rays_per_path * paths, sources_.light() / (points_per_path * paths));
     std::mutex adding;
     for_in_parallel(tbb::blocked_range<std::uint32_t>(0, paths), [&](const tbb::blocked_range<std::uint32_t>& part) {
         Ends ends;
@@ -115,9 +125,66 @@ struct LightPaths::Sender {
     std::uint32_t seed;
 };
 
-void LightPaths::trace_from_organs(double rays, std::uint32_t trial, std::uint32_t seed) {
+void LightPaths::trace_from_organs(std::uint32_t trial, std::uint32_t seed) {
     if (sources_.empty()) return;
-    rays_.share_out(rays);
+    send_rays(trial, seed);
+    if (rays_.has_projected()) project(trial, seed);
+}
+
+/// Each view of the trials together stands for another part of the sky.
+void LightPaths::project(std::uint32_t trial, std::uint32_t seed) {
+    constexpr std::uint32_t suns = 2, skies = 5;
+    const auto own = static_cast<std::uint32_t>(mix(mix(seed, trial), 1));
+    const double shift = (radical_inverse(trial) + scrambled_sobol(0, seed)[0]);
+    std::vector<std::pair<SourceKind, LightSources::Parallel>> views;
+    for (const SourceKind kind : {SourceKind::sun, SourceKind::sky}) {
+        for (const auto& light :
+             sources_.parallels(kind, kind == SourceKind::sun ? suns : skies, shift - std::floor(shift), own)) {
+            views.emplace_back(kind, light);
+        }
+    }
+    const double points = points_per_path * paths_ / static_cast<double>(views.size());
+    std::mutex adding;
+    for_in_parallel(std::size_t{0}, views.size(), [&](std::size_t i) {
+        const auto& [kind, light] = views[i];
+        const std::array<double, 4> shifts =
+            scrambled_sobol(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(mix(own, 2)));
+        LightProjection projection;
+        projection.look(*triangles_, {light.towards, {shifts[0], shifts[1]}, space_.soil(), space_.period()}, points);
+        LightPath path{{}, -light.towards};
+        path.from_sun = kind == SourceKind::sun;
+        Ends ends;
+        add_points(projection, path, light.on_ground, ends);
+        const std::lock_guard guard(adding);
+        tally_.add(ends);
+    });
+}
+
+/// What the points of a projection bring. The paths from sun and sky stand for what is scattered of it.
+void LightPaths::add_points(const LightProjection& projection, LightPath path, double on_ground, Ends& ends) {
+    const double of_point = on_ground * projection.area() / sources_.light() * paths_;
+    for (std::size_t triangle = 0; triangle < triangles_->size(); ++triangle) {
+        const LitTriangles::Owner& owner = triangles_->owner(triangle);
+        const std::uint32_t count = projection.counts()[triangle];
+        if (count == 0 || !rays_.is_projected(owner)) continue;
+        path.weights.fill(of_point * count);
+        const bool on_back = glm::dot(path.direction, triangles_->normal(triangle)) > 0;
+        const OpticsOfBands optics = optics_of(owner, on_back);
+        BandWeights kept{};
+        for (std::size_t b = 0; b < bands(); ++b) {
+            kept[b] = path.weights[b] * (1 - optics[b].reflectance - optics[b].transmittance);
+        }
+        tally_.add(ends.brought, kept);
+        record(path, owner, on_back, kept, ends);
+    }
+}
+
+LightPaths::Counted LightPaths::counted(const LightPath& path, const LitTriangles::Owner& owner) const {
+    if (!options_.from_organs || !path.can_be_sought) return Counted::by_paths;
+    return !path.from_lamp && rays_.is_projected(owner) ? Counted::by_points : Counted::by_rays;
+}
+
+void LightPaths::send_rays(std::uint32_t trial, std::uint32_t seed) {
     const std::span<const OrganRays::Organ> organs = rays_.organs();
     std::mutex adding;
     for_in_parallel(tbb::blocked_range<std::size_t>(0, organs.size()),
@@ -195,7 +262,8 @@ bool LightPaths::go_on(LightPath& path, LightPath& parted, const Numbers& number
     }
     const LitSpace::Met met = space_.advance(path, [&](double to) { count_at_sensors(path, to); });
     if (is_first) {
-        if (options_.from_organs && path.can_be_sought && met.kind == LitSpace::Met::Kind::triangle) return false;
+        const bool is_organ = met.kind == LitSpace::Met::Kind::triangle;
+        if (is_organ && counted(path, triangles_->owner(met.hit)) == Counted::by_rays) return false;
         tally_.add(ends.brought, path.weights);
     }
     if (met.kind == LitSpace::Met::Kind::sky) {
@@ -225,8 +293,10 @@ OpticsOfBands LightPaths::optics_of(const LitTriangles::Owner& owner, bool on_ba
 /// What a path brings to a surface, and what of it stays there.
 void LightPaths::record(const LightPath& met, const LitTriangles::Owner& owner, bool on_back, const BandWeights& kept,
                         Ends& ends) {
+    const bool is_first = met.bounce == 0;
+    if (is_first && counted(met, owner) == Counted::by_points) return tally_.take(ends.brought, kept);
     if (owner.kind == LitKind::solid) return tally_.add(ends.solids, kept);
-    const bool is_first = met.bounce == 0, is_behind = on_back && owner.kind == LitKind::leaf;
+    const bool is_behind = on_back && owner.kind == LitKind::leaf;
     if (is_first && met.is_sought) return tally_.meet_directly(owner.slot, met, is_behind, kept);
     if (is_first && options_.only_scattered) return tally_.add(ends.escaped, kept);
     is_behind ? tally_.meet_back(owner.slot, met.weights) : tally_.meet_front(owner.slot, met.weights);

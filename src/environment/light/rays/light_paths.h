@@ -2,6 +2,7 @@
 #pragma once
 
 #include "environment/light/optics/optics.h"
+#include "environment/light/rays/light_projection.h"
 #include "environment/light/rays/light_sensor.h"
 #include "environment/light/rays/light_sources.h"
 #include "environment/light/rays/light_tally.h"
@@ -39,9 +40,9 @@ public:
     /// Follows so many paths; each `seed` is an independent trial. What follows is of this trial, and the same with any
     /// number of threads.
     void trace(std::uint32_t paths, std::uint32_t seed);
-    /// Behind `trace`, with the option `from_organs`: sends rays from organs to the sources, about so many, and follows
-    /// what the organs scatter of the light that is there. Each trial has rays of its own of those of a `seed`.
-    void trace_from_organs(double rays, std::uint32_t trial, std::uint32_t seed);
+    /// Behind `trace`, with the option `from_organs`: what comes to organs straight from the sources, in proportion to
+    /// the paths. Each of the trials, counted from 0, has rays of its own of those of one `seed`.
+    void trace_from_organs(std::uint32_t trial, std::uint32_t seed);
 
     /// What all paths bring: mol of PAR, or of other bands over their factor.
     double light() const { return sources_.light(); }
@@ -78,6 +79,12 @@ private:
         std::array<double, 4> operator()(std::uint32_t bounce) const;
     };
 
+    /// How the light that comes straight from its source is counted at an organ.
+    enum class Counted : std::uint8_t { by_paths, by_rays, by_points };
+    Counted counted(const LightPath& path, const LitTriangles::Owner& owner) const;
+    void send_rays(std::uint32_t trial, std::uint32_t seed);
+    void project(std::uint32_t trial, std::uint32_t seed);
+    void add_points(const LightProjection& projection, LightPath path, double light, Ends& ends);
     void follow(LightPath path, std::optional<std::size_t> triangle, const Numbers& numbers, Ends& ends);
     bool go_on(LightPath& path, LightPath& parted, const Numbers& numbers, Ends& ends);
     bool scatter(LightPath& path, LightPath& parted, std::size_t triangle, const Numbers& numbers, Ends& ends);

@@ -1,5 +1,6 @@
 #include "environment/light/rays/light_sources.h"
 
+#include "base/sobol.h"
 #include "geometry/vectors.h"
 
 #include <glm/geometric.hpp>
@@ -105,6 +106,7 @@ LightPath LightSources::from_lamp(std::size_t lamp, double again, const std::arr
     LightPath path{ray.origin, ray.direction};
     path.weights = lamp_weights_[lamp];
     path.can_be_sought = can_be_sought(SourceKind::lamp);
+    path.from_lamp = true;
     if (target_.period) path.origin = wrapped(path.origin, *target_.period);
     return path;
 }
@@ -112,6 +114,36 @@ LightPath LightSources::from_lamp(std::size_t lamp, double again, const std::arr
 bool LightSources::can_be_sought(SourceKind kind) const {
     if (kind == SourceKind::lamp) return !lamps_.empty() && !target_.period;
     return std::any_of(beams_.begin(), beams_.end(), [&](const Beam& beam) { return holds(kind, beam); });
+}
+
+std::vector<LightSources::Parallel> LightSources::parallels(SourceKind kind, std::uint32_t count, double shift,
+                                                            std::uint32_t seed) const {
+    std::vector<Parallel> each;
+    double light = 0;
+    bool are_points = true;
+    for (const Beam& beam : beams_) {
+        if (!holds(kind, beam)) continue;
+        each.push_back({beam.light.towards, beam.light.on_ground()});
+        light += beam.light.on_ground();
+        are_points = are_points && beam.light.window.is_point();
+    }
+    if (are_points && each.size() <= count) return each;
+    std::vector<Parallel> chosen;
+    const double step = light / count;
+    double before = 0;
+    for (const Beam& beam : beams_) {
+        if (!holds(kind, beam)) continue;
+        const double own = beam.light.on_ground();
+        while (chosen.size() < count) {
+            const double at = (static_cast<double>(chosen.size()) + shift) * step - before;
+            if (at >= own) break;
+            const double turn = scrambled_sobol(static_cast<std::uint32_t>(chosen.size()), seed)[0];
+            const SkyWindow& window = beam.light.window;
+            chosen.push_back({window.direction(beam.light.towards, rise_on_ground(window, at / own), turn), step});
+        }
+        before += own;
+    }
+    return chosen;
 }
 
 double LightSources::chance_of(const Beam& beam, const LitPatch& patch) const {

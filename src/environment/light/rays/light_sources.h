@@ -60,6 +60,15 @@ public:
     SourceRay seek(SourceKind kind, const LitPatch& patch, double open, const glm::dvec3& place, double u,
                    double v) const;
 
+    /// Parallel light that stands for some of the sun or the sky.
+    struct Parallel {
+        glm::dvec3 towards;
+        double on_ground;  ///< mol/m2
+    };
+    /// All light of sun or sky as at most so many, spread evenly over it from the share `shift` of a step on. Parts of
+    /// the sky are turned as `seed` says.
+    std::vector<Parallel> parallels(SourceKind kind, std::uint32_t count, double shift, std::uint32_t seed) const;
+
     /// Calls visit(towards, photons across them) for directions of sun and sky, of each part of the sky for so many;
     /// numbers(i) gives two in [0, 1).
     template <class Numbers, class Visit>

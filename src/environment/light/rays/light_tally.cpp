@@ -34,6 +34,10 @@ void LightTally::add(OfBands& sums, const BandWeights& weights) const {
     for (std::size_t b = 0; b < bands_; ++b) sums[b] += units(weights[b]);
 }
 
+void LightTally::take(OfBands& sums, const BandWeights& weights) const {
+    for (std::size_t b = 0; b < bands_; ++b) sums[b] -= units(weights[b]);
+}
+
 void LightTally::meet_first(std::size_t slot, const LightPath& path) {
     if (path.from_sun) add_atomically(sun_[slot], path.weights[0]);
     for (int k = 0; k < 3; ++k) {

@@ -33,6 +33,7 @@ public:
     /// Light that nothing has scattered before, in PAR.
     void meet_first(std::size_t slot, const LightPath& path);
     void add(OfBands& sums, const BandWeights& weights) const;
+    void take(OfBands& sums, const BandWeights& weights) const;
 
     /// By one thread at a time.
     void add(const Ends& ends) { ends_.add(ends); }

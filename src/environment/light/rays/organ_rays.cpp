@@ -13,7 +13,7 @@
 namespace espalier::environment {
 namespace {
 
-constexpr std::uint32_t most_rays = 1U << 24;
+constexpr double most_rays = 1 << 24;
 
 /// Its lowest ten bits, two zeros before each.
 std::uint32_t spread(std::uint32_t x) {
@@ -28,23 +28,23 @@ std::uint32_t spread(std::uint32_t x) {
 
 void OrganRays::set(const LitTriangles& triangles, std::size_t slots, const LightSources& sources) {
     triangles_ = &triangles;
-    sort_by_organ(slots);
+    projected_.assign(slots + 1, 0);
+    has_projected_ = false;
+    sort_by_organ();
     sums_.assign(order_.size(), {});
     for_in_parallel(std::size_t{0}, organs_.size(), [&](std::size_t i) { look_at(organs_[i], sources); });
     std::sort(organs_.begin(), organs_.end(),
               [](const Organ& a, const Organ& b) { return std::pair(a.place, a.key) < std::pair(b.place, b.key); });
 }
 
-void OrganRays::sort_by_organ(std::size_t slots) {
-    std::vector<std::size_t> starts(slots + 2, 0);
-    const auto number = [&](std::size_t triangle) {
-        const LitTriangles::Owner& owner = triangles_->owner(triangle);
-        return owner.kind == LitKind::solid ? slots : owner.slot;
-    };
+void OrganRays::sort_by_organ() {
+    const std::size_t numbers = projected_.size();
+    std::vector<std::size_t> starts(numbers + 1, 0);
+    const auto number = [&](std::size_t triangle) { return organ_number(triangles_->owner(triangle)); };
     for (std::size_t i = 0; i < triangles_->size(); ++i) ++starts[number(i) + 1];
-    for (std::size_t k = 0; k <= slots; ++k) starts[k + 1] += starts[k];
+    for (std::size_t k = 0; k < numbers; ++k) starts[k + 1] += starts[k];
     organs_.clear();
-    for (std::size_t k = 0; k <= slots; ++k) {
+    for (std::size_t k = 0; k < numbers; ++k) {
         if (starts[k + 1] > starts[k]) organs_.push_back({starts[k], starts[k + 1], 0, 0, {}, {}});
     }
     order_.resize(triangles_->size());
@@ -65,19 +65,47 @@ void OrganRays::look_at(Organ& organ, const LightSources& sources) {
     }
 }
 
-void OrganRays::share_out(double rays) {
-    std::array<double, source_kinds> open{};
-    for (const Organ& organ : organs_) {
-        for (std::size_t k = 0; k < source_kinds; ++k) open[k] += organ.open[k];
+void OrganRays::share_out(double rays, double point) {
+    constexpr double enough = 8;  // for each organ, in a trial
+    std::vector<SourceKind> kinds;
+    for (const SourceKind kind : {SourceKind::sun, SourceKind::sky, SourceKind::lamp}) {
+        const auto k = static_cast<std::size_t>(kind);
+        if (std::any_of(organs_.begin(), organs_.end(), [k](const Organ& organ) { return organ.open[k] > 0; })) {
+            kinds.push_back(kind);
+        }
     }
-    const auto kinds = static_cast<double>(std::count_if(open.begin(), open.end(), [](double of) { return of > 0; }));
-    const auto count = static_cast<double>(organs_.size());
+    const double of_kind = rays / static_cast<double>(std::max<std::size_t>(1, kinds.size()));
+    has_projected_ = of_kind < enough * static_cast<double>(organs_.size());
+    std::fill(projected_.begin(), projected_.end(), has_projected_);
+    for (Organ& organ : organs_) organ.rays = {};
+    for (const SourceKind kind : kinds) {
+        if (kind == SourceKind::lamp || !has_projected_) share_out_to_all(kind, of_kind);
+    }
+    if (has_projected_) share_out_to_small(of_kind, point);
+}
+
+void OrganRays::share_out_to_all(SourceKind kind, double rays) {
+    const auto k = static_cast<std::size_t>(kind);
+    double open = 0;
+    for (const Organ& organ : organs_) open += organ.open[k];
     for (Organ& organ : organs_) {
-        for (std::size_t k = 0; k < source_kinds; ++k) {
-            organ.rays[k] = 0;
-            if (!(organ.open[k] > 0)) continue;
-            const double own = rays / kinds * (0.5 / count + 0.5 * organ.open[k] / open[k]);
-            organ.rays[k] = std::bit_floor(static_cast<std::uint32_t>(std::clamp(own, 1.0, double(most_rays))));
+        if (!(organ.open[k] > 0)) continue;
+        const double own = rays * (0.5 / static_cast<double>(organs_.size()) + 0.5 * organ.open[k] / open);
+        organ.rays[k] = std::bit_floor(static_cast<std::uint32_t>(std::clamp(own, 1.0, most_rays)));
+    }
+}
+
+void OrganRays::share_out_to_small(double rays, double point) {
+    constexpr double few = 2;
+    const auto open = [](const Organ& organ) { return organ.open[0] + organ.open[1]; };
+    const auto is_small = [&](const Organ& organ) { return open(organ) < few * point; };
+    const double own = rays / static_cast<double>(std::count_if(organs_.begin(), organs_.end(), is_small));
+    if (!(own >= 1)) return;
+    for (Organ& organ : organs_) {
+        if (!is_small(organ)) continue;
+        projected_[organ_number(owner(organ))] = 0;
+        for (const std::size_t k : {0, 1}) {
+            if (organ.open[k] > 0) organ.rays[k] = std::bit_floor(static_cast<std::uint32_t>(std::min(own, 1024.0)));
         }
     }
 }

@@ -30,9 +30,13 @@ public:
 
     /// Keeps a reference to the triangles.
     void set(const LitTriangles& triangles, std::size_t slots, const LightSources& sources);
-    /// Shares out about so many rays of each trial: a half evenly, a half by the light that is open to an organ; at
-    /// least one to each kind of source that can light it.
-    void share_out(double rays);
+    /// Shares out about so many rays of each trial. Where they are enough for all organs, a half goes to each evenly, a
+    /// half by the light that is open to it. Where they are not, the light of sun and sky on most organs is left to
+    /// projections, of which a point stands for `point` mol, and organs on which few of these fall get the rays.
+    void share_out(double rays, double point);
+    /// Whether its light of sun and sky is left to projections.
+    bool is_projected(const LitTriangles::Owner& owner) const { return projected_[organ_number(owner)] != 0; }
+    bool has_projected() const { return has_projected_; }
 
     /// Neighbours stand near each other; in the same order however the plants are numbered.
     std::span<const Organ> organs() const { return organs_; }
@@ -45,7 +49,12 @@ private:
         std::array<double, source_kinds> open;  ///< sums up to each triangle of an organ
     };
 
-    void sort_by_organ(std::size_t slots);
+    std::size_t organ_number(const LitTriangles::Owner& owner) const {
+        return owner.kind == LitKind::solid ? projected_.size() - 1 : owner.slot;
+    }
+    void sort_by_organ();
+    void share_out_to_all(SourceKind kind, double rays);
+    void share_out_to_small(double rays, double point);
     void look_at(Organ& organ, const LightSources& sources);
     LitPatch patch(std::size_t triangle) const;
     std::uint64_t key_of(std::size_t triangle) const;
@@ -55,6 +64,8 @@ private:
     std::vector<std::size_t> order_;  ///< triangles, organ by organ
     std::vector<Triangle> sums_;      ///< in that order
     std::vector<Organ> organs_;
+    std::vector<std::uint8_t> projected_;  ///< by module; that behind the last are the solids
+    bool has_projected_ = false;
 };
 
 }  // namespace espalier::environment
