@@ -27,10 +27,12 @@ inline glm::dvec3 wrapped(glm::dvec3 place, const Box& period) {
 struct LightPath {
     glm::dvec3 origin, direction;
     double near = 0;  ///< nothing is met before
-    bool from_sun = false, from_lamp = false;
+    bool from_sun = false;
     bool can_be_sought = false;  ///< organs find its source by rays of their own
-    bool is_sought = false;      ///< begins where such a ray did, and meets the organ at once
-    std::uint32_t bounce = 0;    ///< how often it has met something
+    enum class Begin : std::uint8_t { source, ray, point };
+    Begin begin =
+        Begin::source;         ///< or where a ray from an organ or a point of a projection is, which it meets at once
+    std::uint32_t bounce = 0;  ///< how often it has met something
     BandWeights weights{};
     BandWeights enough{};  ///< with less than this, chance decides whether all of it goes on
 };

@@ -58,13 +58,17 @@ BandWeights divide(LightPath& path, LightPath& through, const OpticsOfBands& opt
     return kept;
 }
 
-constexpr double rays_per_path = 4, points_per_path = 200;
+constexpr double rays_per_path = 4, points_per_path = 100, starts_per_path = 2;
 
 /// 0, 1/2, 1/4, 3/4, 1/8 ...
 double radical_inverse(std::uint32_t i) {
     double inverse = 0, place = 0.5;
     for (; i > 0; i /= 2, place /= 2) inverse += i % 2 * place;
     return inverse;
+}
+
+double fraction(double x) {
+    return x - std::floor(x);
 }
 
 std::size_t count_cells(std::span<const LightSensor> sensors) {
@@ -131,36 +135,45 @@ void LightPaths::trace_from_organs(std::uint32_t trial, std::uint32_t seed) {
     if (rays_.has_projected()) project(trial, seed);
 }
 
-/// Each view of the trials together stands for another part of the sky.
-void LightPaths::project(std::uint32_t trial, std::uint32_t seed) {
+std::vector<LightPaths::View> LightPaths::views(std::uint32_t trial, std::uint32_t seed) const {
     constexpr std::uint32_t suns = 2, skies = 5;
-    const auto own = static_cast<std::uint32_t>(mix(mix(seed, trial), 1));
-    const double shift = (radical_inverse(trial) + scrambled_sobol(0, seed)[0]);
-    std::vector<std::pair<SourceKind, LightSources::Parallel>> views;
-    for (const SourceKind kind : {SourceKind::sun, SourceKind::sky}) {
-        for (const auto& light :
-             sources_.parallels(kind, kind == SourceKind::sun ? suns : skies, shift - std::floor(shift), own)) {
-            views.emplace_back(kind, light);
-        }
+    const std::array<double, 4> shifts = scrambled_sobol(0, static_cast<std::uint32_t>(seed));
+    const double part = fraction(radical_inverse(trial) + shifts[0]);
+    std::vector<View> views;
+    for (const auto& [kind, count] : {std::pair{SourceKind::sun, suns}, {SourceKind::sky, skies}}) {
+        for (const auto& light : sources_.parallels(kind, count, part, shifts[1])) views.push_back({kind, light});
     }
-    const double points = points_per_path * paths_ / static_cast<double>(views.size());
+    return views;
+}
+
+void LightPaths::project(std::uint32_t trial, std::uint32_t seed) {
+    const std::vector<View> views = this->views(trial, seed);
+    const auto own = static_cast<std::uint32_t>(mix(mix(seed, trial), 1));
+    double on_ground = 0;
+    for (const auto& [kind, light] : views) on_ground += light.on_ground;
     std::mutex adding;
     for_in_parallel(std::size_t{0}, views.size(), [&](std::size_t i) {
         const auto& [kind, light] = views[i];
         const std::array<double, 4> shifts =
             scrambled_sobol(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(mix(own, 2)));
+        const double share = light.on_ground / on_ground;
+        const double points = points_per_path * paths_ * (0.5 / static_cast<double>(views.size()) + 0.5 * share);
         LightProjection projection;
         projection.look(*triangles_, {light.towards, {shifts[0], shifts[1]}, space_.soil(), space_.period()}, points);
         LightPath path{{}, -light.towards};
         path.from_sun = kind == SourceKind::sun;
         Ends ends;
         add_points(projection, path, light.on_ground, ends);
+        path.begin = LightPath::Begin::point;
+        const auto paths = static_cast<std::uint32_t>(starts_per_path * paths_ * share);
+        follow_points(projection, path, light.on_ground,
+                      {std::max(1U, paths), static_cast<std::uint32_t>(mix(own, 3 + i)), options_.evenly}, ends);
         const std::lock_guard guard(adding);
         tally_.add(ends);
     });
 }
 
-/// What the points of a projection bring. The paths from sun and sky stand for what is scattered of it.
+/// What all points of a projection bring.
 void LightPaths::add_points(const LightProjection& projection, LightPath path, double on_ground, Ends& ends) {
     const double of_point = on_ground * projection.area() / sources_.light() * paths_;
     for (std::size_t triangle = 0; triangle < triangles_->size(); ++triangle) {
@@ -179,9 +192,32 @@ void LightPaths::add_points(const LightProjection& projection, LightPath path, d
     }
 }
 
-LightPaths::Counted LightPaths::counted(const LightPath& path, const LitTriangles::Owner& owner) const {
-    if (!options_.from_organs || !path.can_be_sought) return Counted::by_paths;
-    return !path.from_lamp && rays_.is_projected(owner) ? Counted::by_points : Counted::by_rays;
+/// Every so many of the points stand for all in what the organs scatter.
+void LightPaths::follow_points(const LightProjection& projection, const LightPath& path, double on_ground,
+                               const Numbers& of_view, Ends& ends) {
+    std::size_t points = 0;
+    const auto counts = [&](std::size_t triangle) { return rays_.is_projected(triangles_->owner(triangle)); };
+    for (std::size_t triangle = 0; triangle < triangles_->size(); ++triangle) {
+        if (counts(triangle)) points += projection.counts()[triangle];
+    }
+    const auto stride = static_cast<std::size_t>(std::max(1.0, static_cast<double>(points) / of_view.path));
+    const auto first = std::min(stride - 1, static_cast<std::size_t>(static_cast<double>(stride) * of_view(0)[0]));
+    if (points <= first) return;
+    const double of_point = on_ground * projection.area() / sources_.light() * paths_ * static_cast<double>(points) /
+                            static_cast<double>((points - first + stride - 1) / stride);
+    Numbers numbers{0, of_view.seed, options_.evenly};
+    projection.for_points(first, stride, counts, [&](std::size_t triangle, const glm::dvec3& place) {
+        end_if_asked();
+        LightPath begun = path;
+        begun.origin = space_.inside(place);
+        begun.near = space_.near();
+        for (std::size_t b = 0; b < bands(); ++b) {
+            begun.weights[b] = of_point;
+            begun.enough[b] = options_.residual * of_point;
+        }
+        ++numbers.path;
+        follow(begun, triangle, numbers, ends);
+    });
 }
 
 void LightPaths::send_rays(std::uint32_t trial, std::uint32_t seed) {
@@ -217,7 +253,7 @@ void LightPaths::send(const Sender& sender, Ends& ends) {
         const auto met = space_.met_at(begin.place, ray.towards);
         if (met && triangles_->number(*met) != begin.triangle) continue;
         LightPath path{space_.inside(begin.place), -ray.towards, space_.near(), kind == SourceKind::sun};
-        path.is_sought = true;
+        path.begin = LightPath::Begin::ray;
         for (std::size_t b = 0; b < bands(); ++b) {
             path.weights[b] = of_ray * ray.light[b];
             path.enough[b] = options_.residual * path.weights[b];
@@ -262,8 +298,7 @@ bool LightPaths::go_on(LightPath& path, LightPath& parted, const Numbers& number
     }
     const LitSpace::Met met = space_.advance(path, [&](double to) { count_at_sensors(path, to); });
     if (is_first) {
-        const bool is_organ = met.kind == LitSpace::Met::Kind::triangle;
-        if (is_organ && counted(path, triangles_->owner(met.hit)) == Counted::by_rays) return false;
+        if (options_.from_organs && path.can_be_sought && met.kind == LitSpace::Met::Kind::triangle) return false;
         tally_.add(ends.brought, path.weights);
     }
     if (met.kind == LitSpace::Met::Kind::sky) {
@@ -294,10 +329,10 @@ OpticsOfBands LightPaths::optics_of(const LitTriangles::Owner& owner, bool on_ba
 void LightPaths::record(const LightPath& met, const LitTriangles::Owner& owner, bool on_back, const BandWeights& kept,
                         Ends& ends) {
     const bool is_first = met.bounce == 0;
-    if (is_first && counted(met, owner) == Counted::by_points) return tally_.take(ends.brought, kept);
+    if (is_first && met.begin == LightPath::Begin::point) return tally_.take(ends.brought, kept);  // of all points
     if (owner.kind == LitKind::solid) return tally_.add(ends.solids, kept);
     const bool is_behind = on_back && owner.kind == LitKind::leaf;
-    if (is_first && met.is_sought) return tally_.meet_directly(owner.slot, met, is_behind, kept);
+    if (is_first && met.begin == LightPath::Begin::ray) return tally_.meet_directly(owner.slot, met, is_behind, kept);
     if (is_first && options_.only_scattered) return tally_.add(ends.escaped, kept);
     is_behind ? tally_.meet_back(owner.slot, met.weights) : tally_.meet_front(owner.slot, met.weights);
     tally_.absorb(owner.slot, kept);

@@ -79,12 +79,17 @@ private:
         std::array<double, 4> operator()(std::uint32_t bounce) const;
     };
 
-    /// How the light that comes straight from its source is counted at an organ.
-    enum class Counted : std::uint8_t { by_paths, by_rays, by_points };
-    Counted counted(const LightPath& path, const LitTriangles::Owner& owner) const;
     void send_rays(std::uint32_t trial, std::uint32_t seed);
+    /// Sun and sky as seen by the projections of a trial.
+    struct View {
+        SourceKind kind;
+        LightSources::Parallel light;
+    };
+    std::vector<View> views(std::uint32_t trial, std::uint32_t seed) const;
     void project(std::uint32_t trial, std::uint32_t seed);
-    void add_points(const LightProjection& projection, LightPath path, double light, Ends& ends);
+    void add_points(const LightProjection& projection, LightPath path, double on_ground, Ends& ends);
+    void follow_points(const LightProjection& projection, const LightPath& path, double on_ground,
+                       const Numbers& of_view, Ends& ends);
     void follow(LightPath path, std::optional<std::size_t> triangle, const Numbers& numbers, Ends& ends);
     bool go_on(LightPath& path, LightPath& parted, const Numbers& numbers, Ends& ends);
     bool scatter(LightPath& path, LightPath& parted, std::size_t triangle, const Numbers& numbers, Ends& ends);

@@ -8,8 +8,13 @@
 namespace espalier::environment {
 namespace {
 
-constexpr std::uint32_t nothing = std::numeric_limits<std::uint32_t>::max();
 constexpr double most_points = 1 << 24;
+
+/// The least whole number from `at` on.
+std::int64_t whole(double at) {
+    const auto cut = static_cast<std::int64_t>(at);
+    return cut + (static_cast<double>(cut) < at);
+}
 
 /// From 0 to before `count`.
 std::int64_t repeated(std::int64_t i, std::int64_t count) {
@@ -26,7 +31,7 @@ void LightProjection::look(const LitTriangles& triangles, const View& view, doub
     pixels_.assign(static_cast<std::size_t>(columns_ * rows_), {static_cast<float>(view.ground), nothing});
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         const auto corners = triangles.corners(i);
-        draw(i, {seen(corners[0], view), seen(corners[1], view), seen(corners[2], view)}, view.period.has_value());
+        draw(i, {seen(corners[0]), seen(corners[1]), seen(corners[2])}, view.period.has_value());
     }
     for (const Pixel& pixel : pixels_) {
         if (pixel.triangle != nothing) ++counts_[pixel.triangle];
@@ -34,14 +39,14 @@ void LightProjection::look(const LitTriangles& triangles, const View& view, doub
 }
 
 void LightProjection::lay_grid(const LitTriangles& triangles, const View& view, double points) {
+    lean_ = glm::dvec2(view.towards.x, view.towards.z) / view.towards.y;
     glm::dvec2 size;
     if (view.period) {
         lower_ = {view.period->lower.x, view.period->lower.z};
         size = glm::dvec2(view.period->upper.x, view.period->upper.z) - lower_;
     } else {
         const Box& box = triangles.bounds();
-        const glm::dvec2 lean = glm::dvec2(view.towards.x, view.towards.z) / view.towards.y;
-        const glm::dvec2 low = box.lower.y * lean, high = box.upper.y * lean;
+        const glm::dvec2 low = box.lower.y * lean_, high = box.upper.y * lean_;
         lower_ = glm::dvec2(box.lower.x, box.lower.z) - glm::max(low, high);
         size = glm::dvec2(box.upper.x, box.upper.z) - glm::min(low, high) - lower_;
         size = glm::max(size, glm::dvec2(1e-9));
@@ -57,10 +62,9 @@ void LightProjection::lay_grid(const LitTriangles& triangles, const View& view, 
     rows_ += 2;
 }
 
-LightProjection::Corner LightProjection::seen(const glm::vec3& corner, const View& view) const {
-    const double along = corner.y / view.towards.y;
-    return {(corner.x - along * view.towards.x - lower_.x) / cell_.x,
-            (corner.z - along * view.towards.z - lower_.y) / cell_.y, corner.y};
+LightProjection::Corner LightProjection::seen(const glm::vec3& corner) const {
+    return {(corner.x - corner.y * lean_.x - lower_.x) / cell_.x, (corner.z - corner.y * lean_.y - lower_.y) / cell_.y,
+            corner.y};
 }
 
 /// Points of the grid are whole numbers. Each edge is taken from its lower end, so that it cuts rows of points at the
@@ -73,7 +77,6 @@ void LightProjection::draw(std::uint32_t triangle, const std::array<Corner, 3>& 
                  along_z = ((c.height - a.height) * (b.x - a.x) - (b.height - a.height) * (c.x - a.x)) / twice;
     const auto [lowest, highest] = std::minmax({a.height, b.height, c.height});
     const auto [near, far] = std::minmax({a.z, b.z, c.z});
-    const auto whole = [](double at) { return static_cast<std::int64_t>(std::ceil(at)); };
     const std::int64_t first_row = repeats ? whole(near) : std::max<std::int64_t>(0, whole(near)),
                        end_row = repeats ? whole(far) : std::min(rows_, whole(far));
     for (std::int64_t row = first_row; row < end_row; ++row) {
@@ -87,7 +90,7 @@ void LightProjection::draw(std::uint32_t triangle, const std::array<Corner, 3>& 
             left = std::min(left, x);
             right = std::max(right, x);
         }
-        if (!(left < right)) continue;
+        if (!(left <= right)) continue;
         const std::int64_t first = repeats ? whole(left) : std::max<std::int64_t>(0, whole(left)),
                            end = repeats ? whole(right) : std::min(columns_, whole(right));
         Pixel* const pixels = &pixels_[static_cast<std::size_t>(repeated(row, rows_) * columns_)];

@@ -1,6 +1,5 @@
 #include "environment/light/rays/light_sources.h"
 
-#include "base/sobol.h"
 #include "geometry/vectors.h"
 
 #include <glm/geometric.hpp>
@@ -12,6 +11,8 @@
 namespace espalier::environment {
 namespace {
 
+constexpr double golden_section = 0.6180339887498949;
+constexpr double shifts = 8;  // of views of the sky, from one to the next that is the same
 constexpr double almost_one = 1 - 1e-12;
 
 /// Of a part of the sky whose middle stands in a surface's plane, something lies before the surface.
@@ -106,7 +107,6 @@ LightPath LightSources::from_lamp(std::size_t lamp, double again, const std::arr
     LightPath path{ray.origin, ray.direction};
     path.weights = lamp_weights_[lamp];
     path.can_be_sought = can_be_sought(SourceKind::lamp);
-    path.from_lamp = true;
     if (target_.period) path.origin = wrapped(path.origin, *target_.period);
     return path;
 }
@@ -117,8 +117,8 @@ bool LightSources::can_be_sought(SourceKind kind) const {
 }
 
 std::vector<LightSources::Parallel> LightSources::parallels(SourceKind kind, std::uint32_t count, double shift,
-                                                            std::uint32_t seed) const {
-    std::vector<Parallel> each;
+                                                            double turn) const {
+    std::vector<Parallel> each, chosen;
     double light = 0;
     bool are_points = true;
     for (const Beam& beam : beams_) {
@@ -128,18 +128,18 @@ std::vector<LightSources::Parallel> LightSources::parallels(SourceKind kind, std
         are_points = are_points && beam.light.window.is_point();
     }
     if (are_points && each.size() <= count) return each;
-    std::vector<Parallel> chosen;
     const double step = light / count;
     double before = 0;
     for (const Beam& beam : beams_) {
         if (!holds(kind, beam)) continue;
         const double own = beam.light.on_ground();
         while (chosen.size() < count) {
-            const double at = (static_cast<double>(chosen.size()) + shift) * step - before;
+            const double number = static_cast<double>(chosen.size()) + shift, at = number * step - before;
             if (at >= own) break;
-            const double turn = scrambled_sobol(static_cast<std::uint32_t>(chosen.size()), seed)[0];
-            const SkyWindow& window = beam.light.window;
-            chosen.push_back({window.direction(beam.light.towards, rise_on_ground(window, at / own), turn), step});
+            const double turned = turn + golden_section * shifts * number,
+                         rise = rise_on_ground(beam.light.window, at / own);
+            chosen.push_back(
+                {beam.light.window.direction(beam.light.towards, rise, turned - std::floor(turned)), step});
         }
         before += own;
     }

@@ -65,9 +65,10 @@ public:
         glm::dvec3 towards;
         double on_ground;  ///< mol/m2
     };
-    /// All light of sun or sky as at most so many, spread evenly over it from the share `shift` of a step on. Parts of
-    /// the sky are turned as `seed` says.
-    std::vector<Parallel> parallels(SourceKind kind, std::uint32_t count, double shift, std::uint32_t seed) const;
+    /// All light of sun or sky as at most so many, each of which stands for an equal share of it: the one at the share
+    /// `shift` of its own. Of those of all shifts together, each is turned within its part of the sky by the golden
+    /// section more than the one before, the first by `turn`.
+    std::vector<Parallel> parallels(SourceKind kind, std::uint32_t count, double shift, double turn) const;
 
     /// Calls visit(towards, photons across them) for directions of sun and sky, of each part of the sky for so many;
     /// numbers(i) gives two in [0, 1).
