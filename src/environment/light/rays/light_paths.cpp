@@ -58,7 +58,7 @@ BandWeights divide(LightPath& path, LightPath& through, const OpticsOfBands& opt
     return kept;
 }
 
-constexpr double rays_per_path = 4, points_per_path = 100, starts_per_path = 2;
+constexpr double rays_per_path = 4, points_per_path = 100, starts_per_path = 2, few_paths = 4;
 
 /// 0, 1/2, 1/4, 3/4, 1/8 ...
 double radical_inverse(std::uint32_t i) {
@@ -92,6 +92,7 @@ std::size_t LightPaths::set(const LitTriangles& triangles, std::size_t slots, co
                             std::span<const Lamp> lamps, double lamp_seconds, std::span<const double> factors) {
     triangles_ = &triangles;
     slots_ = slots;
+    lamps_ = lamps.size();
     double highest = -std::numeric_limits<double>::infinity();
     for (const Lamp& lamp : lamps) highest = std::max(highest, lamp.place.y + 1e-3);
     const std::size_t built = space_.set(triangles, sensors_, highest);
@@ -105,7 +106,11 @@ void LightPaths::trace(std::uint32_t paths, std::uint32_t seed) {
     tally_.begin(slots_, paths);
     paths_ = paths;
     if (sources_.empty()) return;
-    if (options_.from_organs) rays_.share_out(rays_per_path * paths, sources_.light() / (points_per_path * paths));
+    if (options_.from_organs) {
+        rays_.share_out(rays_per_path * paths, sources_.light() / (points_per_path * paths));
+        const bool all_are_sought = lamps_ == 0 || sources_.can_be_sought(SourceKind::lamp);
+        rays_.find_small(all_are_sought ? few_paths * sources_.light() / paths : 0);
+    }
     std::mutex adding;
     for_in_parallel(tbb::blocked_range<std::uint32_t>(0, paths), [&](const tbb::blocked_range<std::uint32_t>& part) {
         Ends ends;
@@ -121,6 +126,29 @@ void LightPaths::trace(std::uint32_t paths, std::uint32_t seed) {
     });
 }
 
+/// Where none of n rays was free, one more may be: an n-th of the light.
+std::vector<LightPaths::Looks> LightPaths::looks() const {
+    constexpr double many = 1 << 15;
+    std::vector<Looks> all;
+    if (sources_.empty()) return all;
+    for (std::size_t i = 0; i < rays_.organs().size(); ++i) {
+        const OrganRays::Organ& organ = rays_.organs()[i];
+        const LitTriangles::Owner& owner = rays_.owner(organ);
+        if (owner.kind == LitKind::solid) continue;
+        Looks& looks = all.emplace_back(Looks{owner.slot, 0, 0});
+        double squares = 0;
+        for (std::size_t k = 0; k < source_kinds; ++k) {
+            const double rays = static_cast<double>(trials_) * organ.rays[k];
+            looks.count += rays;
+            if (rays > 0 && rays < many && !found_[i][k]) squares += organ.open[k] / rays * (organ.open[k] / rays);
+        }
+        looks.unseen = std::sqrt(squares);
+        if (looks.count > 0) continue;
+        looks.count = trials_ * points_per_path * paths_ * (organ.open[0] + organ.open[1]) / sources_.light();
+    }
+    return all;
+}
+
 /// Rays of one trial from an organ to the sources of one kind.
 struct LightPaths::Sender {
     const OrganRays::Organ& organ;
@@ -130,6 +158,8 @@ struct LightPaths::Sender {
 };
 
 void LightPaths::trace_from_organs(std::uint32_t trial, std::uint32_t seed) {
+    if (trial == 0) found_.assign(rays_.organs().size(), {});
+    trials_ = trial + 1;
     if (sources_.empty()) return;
     send_rays(trial, seed);
     if (rays_.has_projected()) project(trial, seed);
@@ -149,14 +179,14 @@ std::vector<LightPaths::View> LightPaths::views(std::uint32_t trial, std::uint32
 void LightPaths::project(std::uint32_t trial, std::uint32_t seed) {
     const std::vector<View> views = this->views(trial, seed);
     const auto own = static_cast<std::uint32_t>(mix(mix(seed, trial), 1));
-    double on_ground = 0;
-    for (const auto& [kind, light] : views) on_ground += light.on_ground;
+    double all = 0;
+    for (const View& view : views) all += view.light.light;
     std::mutex adding;
     for_in_parallel(std::size_t{0}, views.size(), [&](std::size_t i) {
         const auto& [kind, light] = views[i];
         const std::array<double, 4> shifts =
             scrambled_sobol(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(mix(own, 2)));
-        const double share = light.on_ground / on_ground;
+        const double share = light.light / all;
         const double points = points_per_path * paths_ * (0.5 / static_cast<double>(views.size()) + 0.5 * share);
         LightProjection projection;
         projection.look(*triangles_, {light.towards, {shifts[0], shifts[1]}, space_.soil(), space_.period()}, points);
@@ -230,7 +260,9 @@ void LightPaths::send_rays(std::uint32_t trial, std::uint32_t seed) {
                             for (std::uint32_t k = 0; k < source_kinds; ++k) {
                                 const std::uint32_t count = organs[i].rays[k];
                                 const auto own = static_cast<std::uint32_t>(mix(mix(seed, organs[i].key), k));
-                                send({organs[i], static_cast<SourceKind>(k), trial * count, count, own}, ends);
+                                const Sender sender{organs[i], static_cast<SourceKind>(k), trial * count, count, own};
+                                send(sender, ends);
+                                if (rays_.is_small(rays_.owner(organs[i]))) gather(sender, ends);
                             }
                         }
                         const std::lock_guard guard(adding);
@@ -254,12 +286,109 @@ void LightPaths::send(const Sender& sender, Ends& ends) {
         if (met && triangles_->number(*met) != begin.triangle) continue;
         LightPath path{space_.inside(begin.place), -ray.towards, space_.near(), kind == SourceKind::sun};
         path.begin = LightPath::Begin::ray;
+        found_[static_cast<std::size_t>(&organ - rays_.organs().data())][static_cast<std::size_t>(kind)] = true;
         for (std::size_t b = 0; b < bands(); ++b) {
             path.weights[b] = of_ray * ray.light[b];
             path.enough[b] = options_.residual * path.weights[b];
         }
         follow(path, begin.triangle, numbers, ends);
     }
+}
+
+/// Scattered light on a small organ, which hardly a path would meet, against the way of the light: what is seen from
+/// its surface, and the light on that. What paths bring to it is not counted then.
+void LightPaths::gather(const Sender& sender, Ends& ends) {
+    const auto& [organ, kind, first, count, seed] = sender;
+    const LitTriangles::Owner& owner = rays_.owner(organ);
+    const auto kinds =
+        static_cast<double>(std::count_if(organ.rays.begin(), organ.rays.end(), [](auto n) { return n > 0; }));
+    for (std::uint32_t number = first; number != first + count; ++number) {
+        end_if_asked();
+        const Numbers numbers{number, static_cast<std::uint32_t>(mix(seed, 0x67)), options_.evenly};
+        const std::array<double, 4> at = numbers(0), to = numbers(1);
+        const OrganRays::Begin begin = rays_.begin(organ, kind, at[0], at[1]);
+        const bool on_back = at[2] < 0.5;
+        const glm::dvec3 facing = on_back ? -begin.patch.normal : begin.patch.normal;
+        LightPath path{space_.inside(begin.place), lambertian(facing, to[0], to[1]), space_.near()};
+        if (path.origin.y < space_.soil()) continue;
+        const double surface = 2 * begin.patch.area * organ.open[static_cast<std::size_t>(kind)] / begin.open;
+        path.weights = scattered_from(path, numbers);
+        for (double& light : path.weights) light *= paths_ * surface / (sources_.light() * count * kinds);
+        path.bounce = 1;
+        const OpticsOfBands optics = optics_of(owner, on_back);
+        BandWeights kept{};
+        for (std::size_t b = 0; b < bands(); ++b) {
+            kept[b] = path.weights[b] * (1 - optics[b].reflectance - optics[b].transmittance);
+        }
+        tally_.add(ends.brought, kept);
+        tally_.meet_directly(owner.slot, path, on_back && owner.kind == LitKind::leaf, kept);
+    }
+}
+
+/// Light that comes towards the beginning of a path from what it meets, as pi times the radiance: mol/m2 that such a
+/// surface sends out in all directions together.
+BandWeights LightPaths::scattered_from(LightPath path, const Numbers& numbers) const {
+    constexpr double low = 0.25;
+    BandWeights seen{}, share;
+    share.fill(1);
+    for (std::uint32_t bounce = 2;; bounce += 2) {
+        const LitSpace::Met met = space_.advance(path, [](double) {});
+        if (met.kind == LitSpace::Met::Kind::sky) return seen;
+        const std::array<double, 4> sample = numbers(bounce), turn = numbers(bounce + 1);
+        LitPatch patch{path.origin, {0, 1, 0}, 1};
+        OpticsOfBands optics{}, behind{};
+        bool on_back = false;
+        if (met.kind == LitSpace::Met::Kind::soil) {
+            path.origin.y = patch.middle.y = space_.soil();
+            for (std::size_t b = 0; b < bands(); ++b) optics[b] = {optics_.soil(path.origin, b), 0};
+        } else {
+            patch.normal = triangles_->normal(met.hit);
+            on_back = glm::dot(path.direction, patch.normal) > 0;
+            optics = optics_of(triangles_->owner(met.hit), on_back);
+            behind = optics_of(triangles_->owner(met.hit), !on_back);
+        }
+        if (patch.normal == glm::dvec3(0)) return seen;
+        const BandWeights direct = direct_on(patch, on_back, optics, behind, sample);
+        double reflected = 0, through = 0, most = 0;
+        for (std::size_t b = 0; b < bands(); ++b) {
+            seen[b] += share[b] * direct[b];
+            reflected += share[b] * optics[b].reflectance;
+            through += share[b] * behind[b].transmittance;
+        }
+        if (!(reflected + through > 0)) return seen;
+        const double chance = reflected / (reflected + through);
+        const bool turns_back = turn[0] < chance;
+        for (std::size_t b = 0; b < bands(); ++b) {
+            share[b] *= turns_back ? optics[b].reflectance / chance : behind[b].transmittance / (1 - chance);
+            most = std::max(most, share[b]);
+        }
+        if (most < low) {
+            if (turn[3] * low >= most) return seen;
+            for (double& of_band : share) of_band *= low / most;
+        }
+        const glm::dvec3 facing = on_back ? -patch.normal : patch.normal;
+        path.direction = lambertian(turns_back ? facing : -facing, turn[1], turn[2]);
+        path.near = space_.near();
+    }
+}
+
+/// mol/m2 of what comes straight from the sources to a surface and leaves it on the side that is seen: its back, if
+/// `on_back`. `optics` is of that side, `behind` of the other.
+BandWeights LightPaths::direct_on(const LitPatch& patch, bool on_back, const OpticsOfBands& optics,
+                                  const OpticsOfBands& behind, const std::array<double, 4>& sample) const {
+    BandWeights light{};
+    for (const SourceKind kind : {SourceKind::sun, SourceKind::sky, SourceKind::lamp}) {
+        const double open = sources_.can_be_sought(kind) ? sources_.open_light(kind, patch) : 0;
+        if (!(open > 0)) continue;
+        const SourceRay ray = sources_.seek(kind, patch, open, patch.middle, sample[0], sample[1]);
+        if (!space_.is_open(patch.middle, ray.towards, ray.length)) continue;
+        if (kind != SourceKind::lamp && !sources_.reaches(patch.middle, ray.towards)) continue;
+        const bool is_seen_side = (glm::dot(ray.towards, patch.normal) < 0) == on_back;
+        for (std::size_t b = 0; b < bands(); ++b) {
+            light[b] += open * ray.light[b] * (is_seen_side ? optics[b].reflectance : behind[b].transmittance);
+        }
+    }
+    return light;
 }
 
 std::array<double, 4> LightPaths::Numbers::operator()(std::uint32_t bounce) const {
@@ -331,6 +460,7 @@ void LightPaths::record(const LightPath& met, const LitTriangles::Owner& owner, 
     const bool is_first = met.bounce == 0;
     if (is_first && met.begin == LightPath::Begin::point) return tally_.take(ends.brought, kept);  // of all points
     if (owner.kind == LitKind::solid) return tally_.add(ends.solids, kept);
+    if (options_.from_organs && !is_first && rays_.is_small(owner)) return tally_.take(ends.brought, kept);
     const bool is_behind = on_back && owner.kind == LitKind::leaf;
     if (is_first && met.begin == LightPath::Begin::ray) return tally_.meet_directly(owner.slot, met, is_behind, kept);
     if (is_first && options_.only_scattered) return tally_.add(ends.escaped, kept);

@@ -44,6 +44,14 @@ public:
     /// the paths. Each of the trials, counted from 0, has rays of its own of those of one `seed`.
     void trace_from_organs(std::uint32_t trial, std::uint32_t seed);
 
+    /// How an organ has looked for the sources in all trials since the one numbered 0.
+    struct Looks {
+        std::size_t slot;
+        double count;   ///< rays, or points of projections that it would have in the open
+        double unseen;  ///< standard error, in mol, of the light of sources that none of few rays has found
+    };
+    std::vector<Looks> looks() const;
+
     /// What all paths bring: mol of PAR, or of other bands over their factor.
     double light() const { return sources_.light(); }
     /// Shares of it.
@@ -100,6 +108,10 @@ private:
     std::array<SideOptics, most_bands> optics_of(const LitTriangles::Owner& owner, bool on_back) const;
     struct Sender;
     void send(const Sender& sender, Ends& ends);
+    void gather(const Sender& sender, Ends& ends);
+    BandWeights scattered_from(LightPath path, const Numbers& numbers) const;
+    BandWeights direct_on(const LitPatch& patch, bool on_back, const std::array<SideOptics, most_bands>& optics,
+                          const std::array<SideOptics, most_bands>& behind, const std::array<double, 4>& sample) const;
 
     const Optics& optics_;
     std::vector<LightSensor> sensors_;
@@ -109,7 +121,9 @@ private:
     LightSources sources_;
     OrganRays rays_;
     LightTally tally_;
-    std::uint32_t paths_ = 0;
+    std::vector<std::array<bool, source_kinds>> found_;  ///< by organ: whether a ray to sources of a kind was free
+    std::uint32_t paths_ = 0, trials_ = 0;
+    std::size_t lamps_ = 0;
     const LitTriangles* triangles_ = nullptr;
     std::size_t slots_ = 0;
 };

@@ -18,24 +18,15 @@ constexpr double almost_one = 1 - 1e-12;
 /// Of a part of the sky whose middle stands in a surface's plane, something lies before the surface.
 constexpr double least_cosine = 0.03;
 
-/// A height of the window: that below which a share of its light falls on level ground.
-double rise_on_ground(const SkyWindow& window, double u) {
-    const double low = window.lowest * window.lowest, high = window.highest * window.highest;
-    return std::sqrt(low + u * (high - low));
-}
-
 }  // namespace
 
-/// Of those of a beam, evenly over their solid angle.
 glm::dvec3 LightSources::direction(const LightBeam& beam, double u, double v) {
-    const SkyWindow& window = beam.window;
-    return window.direction(beam.towards, window.lowest + u * (window.highest - window.lowest), v);
+    return beam.window.direction(beam.towards, beam.window.rise_across(u), v);
 }
 
-/// mol/m2 across its directions, on average over the window.
+/// mol/m2 across its directions.
 double LightSources::across(const LightBeam& beam) {
-    const SkyWindow& window = beam.window;
-    return window.is_point() ? beam.photons : beam.on_ground() / ((window.lowest + window.highest) / 2);
+    return beam.window.is_point() ? beam.photons : beam.on_ground() / beam.window.mean_rise();
 }
 
 void LightSources::set(const Daylight& light, std::span<const Lamp> lamps, double lamp_seconds,
@@ -85,7 +76,7 @@ LightPath LightSources::path(const std::array<double, 4>& sample) const {
 LightPath LightSources::from_beam(const Beam& beam, double again, const std::array<double, 4>& sample) const {
     const auto& [centre, radius, period] = target_;
     const SkyWindow& window = beam.light.window;
-    const glm::dvec3 towards = period ? window.direction(beam.light.towards, rise_on_ground(window, again), sample[3])
+    const glm::dvec3 towards = period ? window.direction(beam.light.towards, window.rise_on_ground(again), sample[3])
                                       : direction(beam.light, again, sample[3]);
     LightPath path{{}, -towards};
     path.weights.fill(1);
@@ -118,32 +109,39 @@ bool LightSources::can_be_sought(SourceKind kind) const {
 
 std::vector<LightSources::Parallel> LightSources::parallels(SourceKind kind, std::uint32_t count, double shift,
                                                             double turn) const {
+    const auto light_of = [&](const LightBeam& beam) { return target_.period ? beam.on_ground() : across(beam); };
     std::vector<Parallel> each, chosen;
-    double light = 0;
+    double light = 0, before = 0;
     bool are_points = true;
     for (const Beam& beam : beams_) {
         if (!holds(kind, beam)) continue;
-        each.push_back({beam.light.towards, beam.light.on_ground()});
-        light += beam.light.on_ground();
+        each.push_back({beam.light.towards, beam.light.on_ground(), light_of(beam.light)});
+        light += each.back().light;
         are_points = are_points && beam.light.window.is_point();
     }
     if (are_points && each.size() <= count) return each;
     const double step = light / count;
-    double before = 0;
     for (const Beam& beam : beams_) {
         if (!holds(kind, beam)) continue;
-        const double own = beam.light.on_ground();
+        const double own = light_of(beam.light);
         while (chosen.size() < count) {
             const double number = static_cast<double>(chosen.size()) + shift, at = number * step - before;
             if (at >= own) break;
-            const double turned = turn + golden_section * shifts * number,
-                         rise = rise_on_ground(beam.light.window, at / own);
-            chosen.push_back(
-                {beam.light.window.direction(beam.light.towards, rise, turned - std::floor(turned)), step});
+            const SkyWindow& window = beam.light.window;
+            const double rise = target_.period ? window.rise_on_ground(at / own) : window.rise_across(at / own);
+            const double turned = turn + golden_section * shifts * number;
+            const glm::dvec3 towards = window.direction(beam.light.towards, rise, turned - std::floor(turned));
+            chosen.push_back({towards, target_.period ? step : step * towards.y, step});
         }
         before += own;
     }
     return chosen;
+}
+
+bool LightSources::reaches(const glm::dvec3& place, const glm::dvec3& towards) const {
+    if (target_.period) return true;
+    const glm::dvec3 x = any_across(towards), y = glm::cross(towards, x), from = place - target_.centre;
+    return std::abs(glm::dot(from, x)) <= target_.radius && std::abs(glm::dot(from, y)) <= target_.radius;
 }
 
 double LightSources::chance_of(const Beam& beam, const LitPatch& patch) const {
@@ -199,7 +197,7 @@ SourceRay LightSources::to_sky(const Beam& beam, const LitPatch& patch, double u
     SourceRay ray{beam.light.towards, std::numeric_limits<double>::infinity(), {}};
     double light = 1;
     if (!window.is_point()) {
-        const double rise = rise_on_ground(window, u);
+        const double rise = window.rise_on_ground(u);
         ray.towards = window.direction(beam.light.towards, rise, v);
         const double per_area = beam.light.on_ground() / rise * std::abs(glm::dot(patch.normal, ray.towards));
         light = per_area / chance_of(beam, patch);

@@ -64,11 +64,15 @@ public:
     struct Parallel {
         glm::dvec3 towards;
         double on_ground;  ///< mol/m2
+        double light;      ///< the same across the direction, where there is no period
     };
     /// All light of sun or sky as at most so many, each of which stands for an equal share of it: the one at the share
     /// `shift` of its own. Of those of all shifts together, each is turned within its part of the sky by the golden
     /// section more than the one before, the first by `turn`.
     std::vector<Parallel> parallels(SourceKind kind, std::uint32_t count, double shift, double turn) const;
+
+    /// Whether light of sun and sky that paths bring to a place on the ground includes that of a direction.
+    bool reaches(const glm::dvec3& place, const glm::dvec3& towards) const;
 
     /// Calls visit(towards, photons across them) for directions of sun and sky, of each part of the sky for so many;
     /// numbers(i) gives two in [0, 1).

@@ -51,6 +51,7 @@ void LightTally::meet_directly(std::size_t slot, const LightPath& path, bool on_
         sums[3 * b + on_back] += path.weights[b];
         sums[3 * b + 2] += kept[b];
     }
+    if (path.bounce > 0) return;  // what has been scattered is of no direction
     if (path.from_sun) sums[3 * bands_] += path.weights[0];
     for (int k = 0; k < 3; ++k)
         sums[3 * bands_ + 1 + static_cast<std::size_t>(k)] -= path.weights[0] * path.direction[k];

@@ -29,6 +29,7 @@ std::uint32_t spread(std::uint32_t x) {
 void OrganRays::set(const LitTriangles& triangles, std::size_t slots, const LightSources& sources) {
     triangles_ = &triangles;
     projected_.assign(slots + 1, 0);
+    small_.assign(slots + 1, 0);
     has_projected_ = false;
     sort_by_organ();
     sums_.assign(order_.size(), {});
@@ -107,6 +108,15 @@ void OrganRays::share_out_to_small(double rays, double point) {
         for (const std::size_t k : {0, 1}) {
             if (organ.open[k] > 0) organ.rays[k] = std::bit_floor(static_cast<std::uint32_t>(std::min(own, 1024.0)));
         }
+    }
+}
+
+void OrganRays::find_small(double light) {
+    for (const Organ& organ : organs_) {
+        const LitTriangles::Owner& own = owner(organ);
+        const bool has_rays = std::any_of(organ.rays.begin(), organ.rays.end(), [](auto count) { return count > 0; });
+        const double open = organ.open[0] + organ.open[1] + organ.open[2];
+        small_[organ_number(own)] = own.kind != LitKind::solid && has_rays && !is_projected(own) && open < light;
     }
 }
 

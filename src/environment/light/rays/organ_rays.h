@@ -37,6 +37,10 @@ public:
     /// Whether its light of sun and sky is left to projections.
     bool is_projected(const LitTriangles::Owner& owner) const { return projected_[organ_number(owner)] != 0; }
     bool has_projected() const { return has_projected_; }
+    /// Whether it is so small that hardly a path meets it: its rays look for scattered light, too.
+    bool is_small(const LitTriangles::Owner& owner) const { return small_[organ_number(owner)] != 0; }
+    /// Which are small: where the light of less than so many mol would meet them.
+    void find_small(double light);
 
     /// Neighbours stand near each other; in the same order however the plants are numbered.
     std::span<const Organ> organs() const { return organs_; }
@@ -64,7 +68,7 @@ private:
     std::vector<std::size_t> order_;  ///< triangles, organ by organ
     std::vector<Triangle> sums_;      ///< in that order
     std::vector<Organ> organs_;
-    std::vector<std::uint8_t> projected_;  ///< by module; that behind the last are the solids
+    std::vector<std::uint8_t> projected_, small_;  ///< by module; that behind the last are the solids
     bool has_projected_ = false;
 };
 
