@@ -58,7 +58,7 @@ BandWeights divide(LightPath& path, LightPath& through, const OpticsOfBands& opt
     return kept;
 }
 
-constexpr double rays_per_path = 4, points_per_path = 100, starts_per_path = 2, few_paths = 4;
+constexpr double rays_per_path = 4, points_per_path = 64, starts_per_path = 2, few_paths = 4;
 
 /// 0, 1/2, 1/4, 3/4, 1/8 ...
 double radical_inverse(std::uint32_t i) {

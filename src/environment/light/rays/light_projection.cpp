@@ -73,12 +73,13 @@ void LightProjection::draw(std::uint32_t triangle, const std::array<Corner, 3>& 
     const auto& [a, b, c] = corners;
     const double twice = (b.x - a.x) * (c.z - a.z) - (c.x - a.x) * (b.z - a.z);
     if (twice == 0) return;
-    const double along_x = ((b.height - a.height) * (c.z - a.z) - (c.height - a.height) * (b.z - a.z)) / twice,
-                 along_z = ((c.height - a.height) * (b.x - a.x) - (b.height - a.height) * (c.x - a.x)) / twice;
-    const auto [lowest, highest] = std::minmax({a.height, b.height, c.height});
     const auto [near, far] = std::minmax({a.z, b.z, c.z});
     const std::int64_t first_row = repeats ? whole(near) : std::max<std::int64_t>(0, whole(near)),
                        end_row = repeats ? whole(far) : std::min(rows_, whole(far));
+    if (first_row >= end_row) return;
+    const double along_x = ((b.height - a.height) * (c.z - a.z) - (c.height - a.height) * (b.z - a.z)) / twice,
+                 along_z = ((c.height - a.height) * (b.x - a.x) - (b.height - a.height) * (c.x - a.x)) / twice;
+    const auto [lowest, highest] = std::minmax({a.height, b.height, c.height});
     for (std::int64_t row = first_row; row < end_row; ++row) {
         const auto z = static_cast<double>(row);
         double left = std::numeric_limits<double>::infinity(), right = -left;
