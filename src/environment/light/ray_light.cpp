@@ -25,7 +25,7 @@ constexpr double least_elevation = 0.0349;  // sine of 2 degrees
 constexpr int trials = 8;
 constexpr std::uint32_t most_paths = 1U << 27;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double bytes_per_triangle = 340;  // corners twice, owner, and Embree's boxes
+constexpr double bytes_per_triangle = 420;  // corners twice, owner, order, open light, and Embree's boxes
 
 LightPaths::Options read_path_options(const Settings& settings, const EnvironmentContext& context) {
     LightPaths::Options options;

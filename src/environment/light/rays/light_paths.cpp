@@ -325,57 +325,71 @@ void LightPaths::gather(const Sender& sender, Ends& ends) {
     }
 }
 
+/// What a path against the way of the light looks at.
+struct LightPaths::Seen {
+    LitPatch patch;
+    bool on_back = false;
+    OpticsOfBands optics{}, behind{};  ///< of the side that is seen, and of the other
+};
+
+LightPaths::Seen LightPaths::seen_by(LightPath& path, const LitSpace::Met& met) const {
+    if (met.kind == LitSpace::Met::Kind::soil) {
+        path.origin.y = space_.soil();
+        Seen soil{{path.origin, {0, 1, 0}, 1}};
+        for (std::size_t b = 0; b < bands(); ++b) soil.optics[b] = {optics_.soil(path.origin, b), 0};
+        return soil;
+    }
+    const LitTriangles::Owner& owner = triangles_->owner(met.hit);
+    const glm::dvec3 normal = triangles_->normal(met.hit);
+    const bool on_back = glm::dot(path.direction, normal) > 0;
+    return {{path.origin, normal, 1}, on_back, optics_of(owner, on_back), optics_of(owner, !on_back)};
+}
+
 /// Light that comes towards the beginning of a path from what it meets, as pi times the radiance: mol/m2 that such a
 /// surface sends out in all directions together.
 BandWeights LightPaths::scattered_from(LightPath path, const Numbers& numbers) const {
-    constexpr double low = 0.25;
-    BandWeights seen{}, share;
-    share.fill(1);
+    BandWeights sum{};
+    path.weights.fill(1);
     for (std::uint32_t bounce = 2;; bounce += 2) {
         const LitSpace::Met met = space_.advance(path, [](double) {});
-        if (met.kind == LitSpace::Met::Kind::sky) return seen;
-        const std::array<double, 4> sample = numbers(bounce), turn = numbers(bounce + 1);
-        LitPatch patch{path.origin, {0, 1, 0}, 1};
-        OpticsOfBands optics{}, behind{};
-        bool on_back = false;
-        if (met.kind == LitSpace::Met::Kind::soil) {
-            path.origin.y = patch.middle.y = space_.soil();
-            for (std::size_t b = 0; b < bands(); ++b) optics[b] = {optics_.soil(path.origin, b), 0};
-        } else {
-            patch.normal = triangles_->normal(met.hit);
-            on_back = glm::dot(path.direction, patch.normal) > 0;
-            optics = optics_of(triangles_->owner(met.hit), on_back);
-            behind = optics_of(triangles_->owner(met.hit), !on_back);
-        }
-        if (patch.normal == glm::dvec3(0)) return seen;
-        const BandWeights direct = direct_on(patch, on_back, optics, behind, sample);
-        double reflected = 0, through = 0, most = 0;
-        for (std::size_t b = 0; b < bands(); ++b) {
-            seen[b] += share[b] * direct[b];
-            reflected += share[b] * optics[b].reflectance;
-            through += share[b] * behind[b].transmittance;
-        }
-        if (!(reflected + through > 0)) return seen;
-        const double chance = reflected / (reflected + through);
-        const bool turns_back = turn[0] < chance;
-        for (std::size_t b = 0; b < bands(); ++b) {
-            share[b] *= turns_back ? optics[b].reflectance / chance : behind[b].transmittance / (1 - chance);
-            most = std::max(most, share[b]);
-        }
-        if (most < low) {
-            if (turn[3] * low >= most) return seen;
-            for (double& of_band : share) of_band *= low / most;
-        }
-        const glm::dvec3 facing = on_back ? -patch.normal : patch.normal;
-        path.direction = lambertian(turns_back ? facing : -facing, turn[1], turn[2]);
-        path.near = space_.near();
+        if (met.kind == LitSpace::Met::Kind::sky) return sum;
+        const Seen seen = seen_by(path, met);
+        if (seen.patch.normal == glm::dvec3(0)) return sum;
+        const BandWeights direct = direct_on(seen, numbers(bounce));
+        for (std::size_t b = 0; b < bands(); ++b) sum[b] += path.weights[b] * direct[b];
+        if (!look_on(path, seen, numbers(bounce + 1))) return sum;
     }
 }
 
-/// mol/m2 of what comes straight from the sources to a surface and leaves it on the side that is seen: its back, if
-/// `on_back`. `optics` is of that side, `behind` of the other.
-BandWeights LightPaths::direct_on(const LitPatch& patch, bool on_back, const OpticsOfBands& optics,
-                                  const OpticsOfBands& behind, const std::array<double, 4>& sample) const {
+/// Turns a path to where light comes from that is scattered towards its beginning; false where chance ends it.
+bool LightPaths::look_on(LightPath& path, const Seen& seen, const std::array<double, 4>& sample) const {
+    constexpr double low = 0.25;
+    double reflected = 0, through = 0, most = 0;
+    for (std::size_t b = 0; b < bands(); ++b) {
+        reflected += path.weights[b] * seen.optics[b].reflectance;
+        through += path.weights[b] * seen.behind[b].transmittance;
+    }
+    if (!(reflected + through > 0)) return false;
+    const double chance = reflected / (reflected + through);
+    const bool turns_back = sample[0] < chance;
+    for (std::size_t b = 0; b < bands(); ++b) {
+        path.weights[b] *=
+            turns_back ? seen.optics[b].reflectance / chance : seen.behind[b].transmittance / (1 - chance);
+        most = std::max(most, path.weights[b]);
+    }
+    if (most < low) {
+        if (sample[3] * low >= most) return false;
+        for (double& of_band : path.weights) of_band *= low / most;
+    }
+    const glm::dvec3 facing = seen.on_back ? -seen.patch.normal : seen.patch.normal;
+    path.direction = lambertian(turns_back ? facing : -facing, sample[1], sample[2]);
+    path.near = space_.near();
+    return true;
+}
+
+/// mol/m2 of what comes straight from the sources to a surface and leaves it on the side that is seen.
+BandWeights LightPaths::direct_on(const Seen& seen, const std::array<double, 4>& sample) const {
+    const LitPatch& patch = seen.patch;
     BandWeights light{};
     for (const SourceKind kind : {SourceKind::sun, SourceKind::sky, SourceKind::lamp}) {
         const double open = sources_.can_be_sought(kind) ? sources_.open_light(kind, patch) : 0;
@@ -383,9 +397,10 @@ BandWeights LightPaths::direct_on(const LitPatch& patch, bool on_back, const Opt
         const SourceRay ray = sources_.seek(kind, patch, open, patch.middle, sample[0], sample[1]);
         if (!space_.is_open(patch.middle, ray.towards, ray.length)) continue;
         if (kind != SourceKind::lamp && !sources_.reaches(patch.middle, ray.towards)) continue;
-        const bool is_seen_side = (glm::dot(ray.towards, patch.normal) < 0) == on_back;
+        const bool is_seen_side = (glm::dot(ray.towards, patch.normal) < 0) == seen.on_back;
         for (std::size_t b = 0; b < bands(); ++b) {
-            light[b] += open * ray.light[b] * (is_seen_side ? optics[b].reflectance : behind[b].transmittance);
+            light[b] +=
+                open * ray.light[b] * (is_seen_side ? seen.optics[b].reflectance : seen.behind[b].transmittance);
         }
     }
     return light;

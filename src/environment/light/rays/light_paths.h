@@ -110,8 +110,10 @@ private:
     void send(const Sender& sender, Ends& ends);
     void gather(const Sender& sender, Ends& ends);
     BandWeights scattered_from(LightPath path, const Numbers& numbers) const;
-    BandWeights direct_on(const LitPatch& patch, bool on_back, const std::array<SideOptics, most_bands>& optics,
-                          const std::array<SideOptics, most_bands>& behind, const std::array<double, 4>& sample) const;
+    struct Seen;
+    Seen seen_by(LightPath& path, const LitSpace::Met& met) const;
+    BandWeights direct_on(const Seen& seen, const std::array<double, 4>& sample) const;
+    bool look_on(LightPath& path, const Seen& seen, const std::array<double, 4>& sample) const;
 
     const Optics& optics_;
     std::vector<LightSensor> sensors_;
