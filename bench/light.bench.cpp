@@ -63,6 +63,59 @@ void rays_of_ray_light(benchmark::State& state) {
 }
 BENCHMARK(rays_of_ray_light)->Arg(10'000)->Arg(100'000)->Arg(1'000'000)->UseRealTime();
 
+/// The light of each leaf in a step, and in another one with other numbers.
+using LightOfLeaves = std::array<std::vector<double>, 2>;
+
+LightOfLeaves light_of_leaves(LightPaths& paths, std::size_t leaves, std::uint32_t count, bool from_organs) {
+    constexpr std::uint32_t trials = 8;
+    LightOfLeaves light;
+    for (std::uint32_t step = 0; step < light.size(); ++step) {
+        light[step].assign(leaves, 0);
+        for (std::uint32_t trial = 0; trial < trials; ++trial) {
+            paths.trace(count / trials, trials * step + trial);
+            if (from_organs) paths.trace_from_organs(trial, 1000 + step);
+            for (std::size_t i = 0; i < leaves; ++i) light[step][i] += paths.absorbed(i, 0) / trials;
+        }
+    }
+    return light;
+}
+
+/// Of the differences between two steps, over the mean: twice the squared error of a leaf.
+double squared_error(const LightOfLeaves& light) {
+    double squares = 0, sum = 0;
+    for (std::size_t i = 0; i < light[0].size(); ++i) {
+        squares += std::pow(light[0][i] - light[1][i], 2);
+        sum += (light[0][i] + light[1][i]) / 2;
+    }
+    return squares * static_cast<double>(light[0].size()) / (sum * sum);
+}
+
+/// Errors of leaves at equal time, with light that is looked for from the organs and with paths from the sources alone:
+/// the square of an error falls as time grows.
+void errors_of_organs(benchmark::State& state) {
+    const auto leaves = static_cast<std::size_t>(state.range(0));
+    const Optics optics(settings("bands.par = { leaf = [0.1, 0.1], soil = 0.1 }\n"));
+    LitTriangles triangles;
+    triangles.add(leaves_at_random(leaves, 7), 0, 0, optics);
+    const Box period{{0, 0, 0}, {2, 3, 2}};
+    const auto error_at_equal_time = [&](bool from_organs) {
+        LightPaths paths(optics, {},
+                         {.period = period, .residual = from_organs ? 0.25 : 0.001, .from_organs = from_organs});
+        paths.set(triangles, leaves, sun_and_sky(), {}, 0, std::array{1.0});
+        LightOfLeaves light;
+        const double seconds = seconds_of([&] { light = light_of_leaves(paths, leaves, 1 << 16, from_organs); });
+        return std::sqrt(squared_error(light) * seconds);
+    };
+    double organs = INFINITY, alone = INFINITY;
+    for (auto _ : state) {
+        organs = std::min(organs, error_at_equal_time(true));
+        alone = std::min(alone, error_at_equal_time(false));
+    }
+    state.counters["work"] = organs;
+    state.counters["yardstick"] = alone;
+}
+BENCHMARK(errors_of_organs)->Arg(10'000)->Arg(100'000)->UseRealTime();
+
 /// As the paths of `ray-light` begin.
 std::vector<Ray> rays_towards(const Box& box) {
     const Daylight light = sun_and_sky();
@@ -216,6 +269,14 @@ const Row changed{"scene of ray-light when 1 of 100 plants has changed, against 
                   Measure::counters,
                   Goal::at_most,
                   0.1};
+const Row few_organs{"error of 10,000 leaves in ray-light, against paths from the sources alone in the same time",
+                     "errors_of_organs/10000/real_time",
+                     "",
+                     Measure::counters,
+                     Goal::at_most,
+                     0.2};
+const Row many_organs{
+    "the same, 100,000 leaves", "errors_of_organs/100000/real_time", "", Measure::counters, Goal::at_most, 0.2};
 const Row voxels{
     "canopy-light, 10^6 leaves in 256^3 voxels, 4 beams from each of 24 directions, against a copy for each beam",
     "voxels_in_light/real_time",

@@ -1,5 +1,5 @@
-// ray-light: photons of sun, sky and lamps that each drawn leaf and stem absorbs, by paths of light through the drawn
-// plants. Chelle & Andrieu 1998, The nested radiosity model for the distribution of light within plant canopies, for
+// ray-light: photons of sun, sky and lamps that each drawn leaf and stem absorbs, by rays from these to the light, and
+// paths of light through the drawn plants. Chelle & Andrieu 1998, The nested radiosity model for the distribution of light within plant canopies, for
 // the question; Veach 1997, Robust Monte Carlo methods for light transport simulation, for the method.
 #include "espalier/environment/environment_process.h"
 
@@ -25,12 +25,13 @@ constexpr double least_elevation = 0.0349;  // sine of 2 degrees
 constexpr int trials = 8;
 constexpr std::uint32_t most_paths = 1U << 27;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double bytes_per_triangle = 340;  // corners twice, owner, and Embree's boxes
+constexpr double bytes_per_triangle = 420;  // corners twice, owner, order, open light, and Embree's boxes
 
 LightPaths::Options read_path_options(const Settings& settings, const EnvironmentContext& context) {
     LightPaths::Options options;
     options.ground = settings.number_or("ground", 0);
-    options.residual = settings.number_or("residual", 0.001, Range::between(1e-9, 0.5));
+    options.residual = settings.number_or("residual", 0.25, Range::between(1e-9, 0.5));
+    options.from_organs = true;
     options.evenly = settings.choice_or("sampling", "sobol", {"sobol", "random"}) == "sobol";
     if (!settings.flag_or("periodic", false)) return options;
     if (!context.domain) {
@@ -219,6 +220,7 @@ private:
         sensor_sums_.assign(sensor_cells() * bands(), 0);
         for (std::uint32_t trial = 0; trial < trials; ++trial) {
             paths_.trace(std::max(1U, count / trials), static_cast<std::uint32_t>(mix(seed, trial)));
+            paths_.trace_from_organs(trial, seed);
             add_trial(trial);
             add_balance();
             add_sensors();
@@ -305,6 +307,12 @@ private:
     /// Standard errors of organs, their areas, and what the sun would bring them without shade.
     void finish() {
         const bool is_dark = !(paths_.light() > 0);
+        looks_.assign(organs_.slots(), 0);
+        unseen_.assign(organs_.slots(), 0);
+        for (const LightPaths::Looks& looks : paths_.looks()) {
+            looks_[looks.slot] = looks.count;
+            unseen_[looks.slot] = looks.unseen;
+        }
         plants_met_.assign(plants_, false);
         surfaces_.assign(organs_.slots(), 0);
         for (std::size_t plant = 0; plant < plants_; ++plant) {
@@ -314,7 +322,8 @@ private:
                 for (std::size_t b = 0; b < bands(); ++b) {
                     OrganLight::Meeting& meeting = organs_.meeting(slot, b);
                     const double variance = std::max(0.0, meeting.error - meeting.absorbed * meeting.absorbed);
-                    meeting.error = met || is_dark ? std::sqrt(variance / (trials - 1)) : unknown;
+                    const double unseen = unseen_[slot] * unseen_[slot];
+                    meeting.error = met || is_dark ? std::sqrt(variance / (trials - 1) + unseen) : unknown;
                 }
             }
         }
@@ -339,7 +348,11 @@ private:
         for (int i = 0; i < trials; ++i) found.mean += sums[i] / trials;
         double squares = 0;
         for (int i = 0; i < trials; ++i) squares += (sums[i] - found.mean) * (sums[i] - found.mean);
-        found.error = std::sqrt(squares / (trials * (trials - 1)));
+        squares /= trials * (trials - 1);
+        for (std::size_t slot = organs_.start(plant); slot < organs_.start(plant + 1); ++slot) {
+            squares += unseen_[slot] * unseen_[slot];
+        }
+        found.error = std::sqrt(squares);
         return found;
     }
 
@@ -354,22 +367,22 @@ private:
         return !plants_met_[plant] && paths_.light() > 0 && surface_of(plant) > 0;
     }
 
-    /// About how many of the paths would meet so many m2 on open ground.
-    double paths_in_the_open(double surface) const {
-        return paths_.light() > 0 ? traced_ * light_.on_ground * surface / paths_.light() : 0;
+    /// How often the organs of a plant have looked for the light.
+    double looks_of(std::size_t plant) const {
+        const auto first = looks_.begin();
+        return std::accumulate(first + static_cast<std::ptrdiff_t>(organs_.start(plant)),
+                               first + static_cast<std::ptrdiff_t>(organs_.start(plant + 1)), 0.0);
     }
 
-    /// The largest relative standard error of a plant; infinite where none of few paths has met one. A plant that many
-    /// would have met in the open stands in the dark.
+    /// The largest relative standard error of a plant; infinite where one has found no light and not looked often. A
+    /// plant that has stands in the dark.
     double worst_error() const {
-        constexpr double many = 4096;
+        constexpr double often = 4096;
         double worst = 0;
         for (std::size_t plant = 0; plant < plants_; ++plant) {
             const Estimate found = estimate(plant, 0);
             if (found.mean > 0) worst = std::max(worst, found.error / found.mean);
-            if (std::isnan(found.error) && paths_in_the_open(surface_of(plant)) < many) {
-                worst = std::numeric_limits<double>::infinity();
-            }
+            if (std::isnan(found.error) && looks_of(plant) < often) worst = std::numeric_limits<double>::infinity();
         }
         return worst;
     }
@@ -388,29 +401,30 @@ private:
             step, traced_, name_, std::isinf(worst) ? "unknown" : fmt::format("{:.2g}", worst), accuracy_));
     }
 
-    /// Of organs that are asked for, where the paths are too few to tell that they are in the dark.
+    /// Of organs that are asked for, where they have looked too seldom to tell that they are in the dark.
     void warn_of_unmet(std::span<const Query> queries, int step) {
         constexpr double enough = 100;
         if ((warned_of_unmet_ && warned_of_buried_) || !(paths_.light() > 0)) return;
         std::size_t count = 0, buried = 0;
-        double largest = 0;
+        double most = 0;
         for (const Query& query : queries) {
             if (query.plant >= plants_) continue;
             const std::size_t slot = organs_.start(query.plant) + query.module + 1;
             if (slot >= organs_.start(query.plant + 1) || !(surfaces_[slot] > 0) || is_met(slot)) continue;
             if (query.pose.position.y < ground_) ++buried;
-            if (query.pose.position.y < ground_ || paths_in_the_open(surfaces_[slot]) >= enough) continue;
+            if (query.pose.position.y < ground_ || looks_[slot] >= enough) continue;
             ++count;
-            largest = std::max(largest, surfaces_[slot]);
+            most = std::max(most, looks_[slot]);
         }
         warn_of_buried(buried, step);
         if (count == 0 || warned_of_unmet_) return;
         warned_of_unmet_ = true;
         warn(fmt::format(
-            "in step {}, no path of '{}' met {} of the organs that are asked for: their light is answered as "
-            "0, but is unknown. On open ground about {:.2g} of the {} paths would meet the largest of them: "
-            "give more 'paths', or an 'accuracy'",
-            step, name_, count, paths_in_the_open(largest), traced_));
+            "in step {}, neither a path of '{}' nor a ray to its sources has found light on {} of the organs that are "
+            "asked "
+            "for: their light is answered as 0, but is unknown. They have looked {:.2g} times at most: give more "
+            "'paths', or an 'accuracy'",
+            step, name_, count, most));
     }
 
     void warn_of_buried(std::size_t count, int step) {
@@ -468,7 +482,8 @@ private:
     Daylight light_;  ///< all that follows is of this step
     std::uint32_t traced_ = 0;
     std::vector<bool> plants_met_;
-    std::vector<double> surfaces_;  ///< m2 of each module's leaves, and half that of closed things
+    std::vector<double> surfaces_;        ///< m2 of each module's leaves, and half that of closed things
+    std::vector<double> looks_, unseen_;  ///< by module: `LightPaths::Looks`
     LitTriangles triangles_;
     std::vector<double> by_plant_;     ///< mol, by plant, band and trial
     std::vector<double> sensor_sums_;  ///< mol/m2, by cell and band
@@ -489,12 +504,15 @@ the plants of the step are drawn. What is not absorbed is scattered as Lambert's
 ?name(f, m, e)  -> e: umol m-2 s-1 that the leaves absorb while there is light
 Three more parameters for each further band tell the same of it.
 
-paths         65536: paths of light in each step. They are 8 independent trials, whose spread gives the standard error.
-              Where no path meets a plant or an organ, its light is answered as 0 and its error is unknown: an empty cell
-accuracy      0: the standard error that each plant's sum may have, as a share of it; paths grow until it is reached, and
-              for a plant that none has met until 4096 would have in the open
+paths         65536: paths of light in each step, 8 independent trials, whose spread gives the standard error. Each organ looks
+              for sun, sky and lamps by rays of its own, 4 for each path in all; where there are too many organs for
+              that, they are drawn as the light sees them. Where no light is found on an organ, it is answered as 0, and
+              its error is unknown: an empty cell
+accuracy      0: the standard error that each plant's sum may have, as a share of it; paths and rays grow until it is reached,
+              and for a plant on which no light is found until it has looked 4096 times
 sampling      "sobol", even; or "random", plain Monte Carlo, for comparisons
-residual      0.001: a path ends where less than this share of its light is left
+residual      0.25: where less than this share of a path's light is left, chance decides at each meeting whether all of it is
+              absorbed there or all of it goes on
 days          1: days that a unit of time stands for
 periodic      false; true repeats the scene's domain to all sides
 ground        0 m: height of the soil
@@ -506,8 +524,7 @@ solids        [[solids]] tables of shapes with bounds; their surfaces are made w
 Of organs a timeline can record absorbed, flux, front, back, reflected, direct, error, each for every band, sunlit,
 brightest. Statistics of a plant: leaf_area (m2, one side), absorbed (mol) with its standard error absorbed_error, also of
 further bands as absorbed.BAND, mean (absorbed per leaf area over what falls on open level ground); of the world: incoming
-(per m2 of it), for each band soil and escaped (shares of the light), closure (all shares, less 1: rounding, and of several
-bands whose reflectances and transmittances are not in one proportion a random error, because one path carries them all).
+(per m2 of it), for each band soil and escaped (shares of the light), closure (all shares, less 1: rounding).
 Frame 0 is the beginning: its shares and rates are those of the first step's light, its amounts 0.
 
 )" + program_rays_help() +

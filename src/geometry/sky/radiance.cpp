@@ -31,6 +31,21 @@ constexpr std::array<std::array<double, 5>, 15> cie_skies{{{4.0, -0.70, 0, -1.0,
                                                            {-1.0, -0.15, 16, -3.0, 0.30},
                                                            {-1.0, -0.15, 24, -2.8, 0.15}}};
 
+/// Of a radiance 1 + g y from below the height y: its light on level ground, and across its directions.
+double light_on_ground(double y, double g) {
+    return y * y * (0.5 + g * y / 3);
+}
+double light_across(double y, double g) {
+    return y * (1 + 0.5 * g * y);
+}
+
+/// The height from below which so much light falls on level ground; by Newton's method.
+double height_on_ground(double light, double g) {
+    double y = std::sqrt(std::max(0.0, 2 * light / (1 + g * 2 / 3)));
+    for (int turn = 0; turn < 6 && g != 0 && y > 0; ++turn) y -= (light_on_ground(y, g) - light) / (y * (1 + g * y));
+    return y;
+}
+
 /// Legendre's polynomial of that degree and its derivative.
 std::pair<double, double> legendre(std::int64_t degree, double x) {
     double before = 1, value = x;
@@ -105,16 +120,46 @@ glm::dvec3 sunflower_direction(std::size_t i, double height) {
     return {across * cosine, height, across * sine};
 }
 
-std::vector<SkyPart> sky_parts(std::int64_t rings, std::int64_t around) {
+double SkyWindow::rise_on_ground(double share) const {
+    const double low = light_on_ground(lowest, gradient), high = light_on_ground(highest, gradient);
+    return std::clamp(height_on_ground(low + share * (high - low), gradient), lowest, highest);
+}
+
+double SkyWindow::rise_across(double share) const {
+    const double low = light_across(lowest, gradient), high = light_across(highest, gradient);
+    const double light = low + share * (high - low);
+    return gradient == 0 ? light : (std::sqrt(1 + 2 * gradient * light) - 1) / gradient;
+}
+
+double SkyWindow::mean_rise() const {
+    return (light_on_ground(highest, gradient) - light_on_ground(lowest, gradient)) /
+           (light_across(highest, gradient) - light_across(lowest, gradient));
+}
+
+glm::dvec3 SkyWindow::direction(const glm::dvec3& middle, double rise, double turn) const {
+    if (is_point()) return middle;
+    const double across =
+        std::sqrt(std::max(0.0, 1 - rise * rise)) / std::sqrt(middle.x * middle.x + middle.z * middle.z);
+    const auto [sine, cosine] = math::sine_and_cosine((2 * turn - 1) * half_turn);
+    return {across * (cosine * middle.x - sine * middle.z), rise, across * (sine * middle.x + cosine * middle.z)};
+}
+
+std::vector<SkyPart> sky_parts(std::int64_t rings, std::int64_t around, double gradient) {
     std::vector<SkyPart> parts;
     const std::vector<GaussPoint> points = gauss_points(rings);
     const double step = 2 * pi / static_cast<double>(around);
+    const double all = light_on_ground(1, gradient);
+    double above = 1, below = 1;  // Gauss's points run downwards; the share of all light that comes from below
     for (std::size_t ring = 0; ring < points.size(); ++ring) {
         const double y = points[ring].at, across = std::sqrt(1 - y * y);
+        below -= (1 + gradient * y) * y * points[ring].weight / all;
+        const double lowest = ring + 1 < points.size() ? height_on_ground(below * all, gradient) : 0;
+        const SkyWindow window{lowest, above, step / 2, gradient};
+        above = lowest;
         const double turned = ring % 2 == 0 ? 0.25 : 0.75;  // neighbouring rings do not stand above each other
         for (std::int64_t i = 0; i < around; ++i) {
             const auto [sine, cosine] = math::sine_and_cosine(step * (static_cast<double>(i) + turned));
-            parts.push_back({{across * cosine, y, across * sine}, step * points[ring].weight});
+            parts.push_back({{across * cosine, y, across * sine}, step * points[ring].weight, window});
         }
     }
     return parts;

@@ -56,16 +56,37 @@ struct GaussPoint {
 };
 std::vector<GaussPoint> gauss_points(std::int64_t count);
 
-/// A part of the sky.
+/// The directions between two heights and two turns about the vertical, in which the radiance is in proportion to
+/// 1 + `gradient` times the sine of the elevation; by default, one direction.
+struct SkyWindow {
+    double lowest = 0, highest = 0;  ///< sines of the elevation; both 0: there is but the middle
+    double half_turn = 0;            ///< radians to both sides of the middle
+    double gradient = 0;
+
+    bool is_point() const { return !(highest > lowest); }
+    /// The sine of the elevation below which a share of the light on level ground comes from, or of that across its
+    /// directions.
+    double rise_on_ground(double share) const;
+    double rise_across(double share) const;
+    /// The mean of that sine in the light across the directions.
+    double mean_rise() const;
+    /// The direction that rises so far, at a share of the turn; `middle` is a unit vector that is not vertical. The
+    /// middle itself where there is no other.
+    glm::dvec3 direction(const glm::dvec3& middle, double rise, double turn) const;
+};
+
+/// A part of the sky. The windows of all of them cover it without gaps.
 struct SkyPart {
     glm::dvec3 towards;  ///< its middle, a unit vector
     double solid_angle;  ///< sr
+    SkyWindow window{};
 };
 
 /// The upper half of the sphere in `rings` (1 to 64) by `around` parts. The cosines of the rings' zenith angles and
 /// their solid angles are those of Gauss's quadrature, so sums over polynomials of the cosine are exact: the cosines
-/// themselves add up to pi.
-std::vector<SkyPart> sky_parts(std::int64_t rings, std::int64_t around);
+/// themselves add up to pi. In a sky whose radiance is in proportion to 1 + `gradient` times the cosine, each window
+/// has the light of its part on level ground.
+std::vector<SkyPart> sky_parts(std::int64_t rings, std::int64_t around, double gradient = 0);
 
 /// The share of each part in the light that falls on level ground from a sky; they add up to 1.
 std::vector<double> shares_on_ground(const SkyRadiance& radiance, const std::vector<SkyPart>& parts);

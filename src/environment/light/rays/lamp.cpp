@@ -122,8 +122,7 @@ Lamp::Ray Lamp::ray(const std::array<double, 4>& u) const {
         case Kind::spot:
             return {place, about(*this, 1 - (1 - cosine) * u[0], 2 * pi * u[1])};
         case Kind::area:
-            return {place + (u[2] - 0.5) * size[0] * x + (u[3] - 0.5) * size[1] * y,
-                    about(*this, std::sqrt(1 - u[0]), 2 * pi * u[1])};
+            return {place_of_light(u[2], u[3]), about(*this, std::sqrt(1 - u[0]), 2 * pi * u[1])};
         case Kind::ies:
             break;
     }
@@ -131,24 +130,32 @@ Lamp::Ray Lamp::ray(const std::array<double, 4>& u) const {
     return {place, about(*this, math::cos(angle), round)};
 }
 
+glm::dvec3 Lamp::place_of_light(double u, double v) const {
+    return place + (u - 0.5) * size[0] * x + (v - 0.5) * size[1] * y;
+}
+
+double Lamp::per_steradian(const glm::dvec3& direction) const {
+    const double along = glm::dot(direction, axis);
+    switch (kind) {
+        case Kind::point:
+            return 1 / (4 * pi);
+        case Kind::spot:
+            return along >= cosine ? 1 / (2 * pi * (1 - cosine)) : 0;
+        case Kind::area:
+            return std::max(0.0, along) / pi;
+        case Kind::ies:
+            break;
+    }
+    const double round = math::atan2(glm::dot(direction, y), glm::dot(direction, x));
+    return table->per_steradian(math::acos(std::clamp(along, -1.0, 1.0)), round);
+}
+
 double Lamp::from_point(const glm::dvec3& source, const glm::dvec3& at) const {
     const glm::dvec3 way = at - source;
     const double distance = glm::length(way);
     if (!(distance > 0) || way.y >= 0) return 0;
     const glm::dvec3 direction = way / distance;
-    const double along = glm::dot(direction, axis), upright = -direction.y / (distance * distance);
-    switch (kind) {
-        case Kind::point:
-            return upright / (4 * pi);
-        case Kind::spot:
-            return along >= cosine ? upright / (2 * pi * (1 - cosine)) : 0;
-        case Kind::area:
-            return upright * std::max(0.0, along) / pi;
-        case Kind::ies:
-            break;
-    }
-    const double round = math::atan2(glm::dot(direction, y), glm::dot(direction, x));
-    return upright * table->per_steradian(math::acos(std::clamp(along, -1.0, 1.0)), round);
+    return -direction.y / (distance * distance) * per_steradian(direction);
 }
 
 double Lamp::on_level_ground(const glm::dvec3& at) const {
@@ -156,8 +163,7 @@ double Lamp::on_level_ground(const glm::dvec3& at) const {
     constexpr int parts = 16;
     double sum = 0;
     for (int i = 0; i < parts * parts; ++i) {
-        const double u = (i % parts + 0.5) / parts - 0.5, v = (i / parts + 0.5) / parts - 0.5;
-        sum += from_point(place + u * size[0] * x + v * size[1] * y, at);
+        sum += from_point(place_of_light((i % parts + 0.5) / parts, (i / parts + 0.5) / parts), at);
     }
     return sum / (parts * parts);
 }

@@ -52,6 +52,10 @@ struct Lamp {
     };
     /// A ray of the lamp's light, from four numbers in [0, 1).
     Ray ray(const std::array<double, 4>& u) const;
+    /// A place of it that shines, from two numbers in [0, 1).
+    glm::dvec3 place_of_light(double u, double v) const;
+    /// Share of its light per steradian in a direction.
+    double per_steradian(const glm::dvec3& direction) const;
     /// Share of its light that falls per m2 on level ground at a place, from above.
     double on_level_ground(const glm::dvec3& at) const;
 

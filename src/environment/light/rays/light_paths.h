@@ -2,11 +2,13 @@
 #pragma once
 
 #include "environment/light/optics/optics.h"
+#include "environment/light/rays/light_projection.h"
 #include "environment/light/rays/light_sensor.h"
 #include "environment/light/rays/light_sources.h"
 #include "environment/light/rays/light_tally.h"
 #include "environment/light/rays/lit_space.h"
 #include "environment/light/rays/lit_triangles.h"
+#include "environment/light/rays/organ_rays.h"
 
 #include <cstdint>
 #include <optional>
@@ -19,10 +21,11 @@ public:
     struct Options {
         double ground = 0;            ///< height of the soil
         std::optional<Box> period;    ///< of a stand without an edge
-        double residual = 0.001;      ///< where less of a path's light is left, that is absorbed where it is
+        double residual = 0.25;       ///< with less of its light left, chance decides where all of that is absorbed
         bool evenly = true;           ///< by Sobol's sequence, or by independent random numbers
         std::uint32_t depth = 0;      ///< how often a path may meet something before it ends; 0: as often as it does
         bool only_scattered = false;  ///< what a path brings to where it is first met is not counted
+        bool from_organs = false;     ///< organs look for the sources themselves, by `trace_from_organs`
     };
 
     /// `optics` is kept by reference.
@@ -37,6 +40,17 @@ public:
     /// Follows so many paths; each `seed` is an independent trial. What follows is of this trial, and the same with any
     /// number of threads.
     void trace(std::uint32_t paths, std::uint32_t seed);
+    /// Behind `trace`, with the option `from_organs`: what comes to organs straight from the sources, in proportion to
+    /// the paths. Each of the trials, counted from 0, has rays of its own of those of one `seed`.
+    void trace_from_organs(std::uint32_t trial, std::uint32_t seed);
+
+    /// How an organ has looked for the sources in all trials since the one numbered 0.
+    struct Looks {
+        std::size_t slot;
+        double count;   ///< rays, or points of projections that it would have in the open
+        double unseen;  ///< standard error, in mol, of the light of sources that none of few rays has found
+    };
+    std::vector<Looks> looks() const;
 
     /// What all paths bring: mol of PAR, or of other bands over their factor.
     double light() const { return sources_.light(); }
@@ -66,16 +80,40 @@ private:
     using Ends = LightTally::Ends;
 
     std::size_t bands() const { return optics_.bands().size(); }
-    void follow(std::uint32_t number, std::uint32_t seed, Ends& ends);
+    /// The numbers of one path, at each of its bounces.
+    struct Numbers {
+        std::uint32_t path, seed;
+        bool evenly;
+        std::array<double, 4> operator()(std::uint32_t bounce) const;
+    };
+
+    void send_rays(std::uint32_t trial, std::uint32_t seed);
+    /// Sun and sky as seen by the projections of a trial.
+    struct View {
+        SourceKind kind;
+        LightSources::Parallel light;
+    };
+    std::vector<View> views(std::uint32_t trial, std::uint32_t seed) const;
+    void project(std::uint32_t trial, std::uint32_t seed);
+    void add_points(const LightProjection& projection, LightPath path, double on_ground, Ends& ends);
+    void follow_points(const LightProjection& projection, const LightPath& path, double on_ground,
+                       const Numbers& of_view, Ends& ends);
+    void follow(LightPath path, std::optional<std::size_t> triangle, const Numbers& numbers, Ends& ends);
+    bool go_on(LightPath& path, LightPath& parted, const Numbers& numbers, Ends& ends);
+    bool scatter(LightPath& path, LightPath& parted, std::size_t triangle, const Numbers& numbers, Ends& ends);
+    bool scatter_from_soil(LightPath& path, const Numbers& numbers, Ends& ends);
     void count_at_sensors(const LightPath& path, double to);
-    template <class Sample>
-    bool scatter(LightPath& path, const RayScene::Hit& hit, const Sample& sample, Ends& ends);
-    template <class Sample>
-    bool scatter_from_soil(LightPath& path, const Sample& sample, Ends& ends);
-    void absorb(const LitTriangles::Owner& owner, const LightPath& path, Ends& ends);
-    void note_meeting(const LightPath& path, const LitTriangles::Owner& owner, bool on_back);
-    SideOptics optics_of(const LitTriangles::Owner& owner, bool on_back, std::size_t band) const;
-    bool is_spent(const LightPath& path) const;
+    void record(const LightPath& met, const LitTriangles::Owner& owner, bool on_back, const BandWeights& kept,
+                Ends& ends);
+    std::array<SideOptics, most_bands> optics_of(const LitTriangles::Owner& owner, bool on_back) const;
+    struct Sender;
+    void send(const Sender& sender, Ends& ends);
+    void gather(const Sender& sender, Ends& ends);
+    BandWeights scattered_from(LightPath path, const Numbers& numbers) const;
+    struct Seen;
+    Seen seen_by(LightPath& path, const LitSpace::Met& met) const;
+    BandWeights direct_on(const Seen& seen, const std::array<double, 4>& sample) const;
+    bool look_on(LightPath& path, const Seen& seen, const std::array<double, 4>& sample) const;
 
     const Optics& optics_;
     std::vector<LightSensor> sensors_;
@@ -83,7 +121,11 @@ private:
     Options options_;
     LitSpace space_;
     LightSources sources_;
+    OrganRays rays_;
     LightTally tally_;
+    std::vector<std::array<bool, source_kinds>> found_;  ///< by organ: whether a ray to sources of a kind was free
+    std::uint32_t paths_ = 0, trials_ = 0;
+    std::size_t lamps_ = 0;
     const LitTriangles* triangles_ = nullptr;
     std::size_t slots_ = 0;
 };

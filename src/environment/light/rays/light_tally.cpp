@@ -19,6 +19,7 @@ void add_atomically(std::uint64_t& sum, double weight) {
 void LightTally::begin(std::size_t slots, std::uint32_t paths) {
     paths_ = paths;
     for (Sums* sums : {&absorbed_, &front_, &back_}) sums->assign(slots * bands_, 0);
+    direct_.assign(slots * of_slot(), 0);
     sun_.assign(slots, 0);
     towards_.assign(3 * slots, 0);
     through_sensors_.assign(through_sensors_.size(), 0);
@@ -33,11 +34,27 @@ void LightTally::add(OfBands& sums, const BandWeights& weights) const {
     for (std::size_t b = 0; b < bands_; ++b) sums[b] += units(weights[b]);
 }
 
+void LightTally::take(OfBands& sums, const BandWeights& weights) const {
+    for (std::size_t b = 0; b < bands_; ++b) sums[b] -= units(weights[b]);
+}
+
 void LightTally::meet_first(std::size_t slot, const LightPath& path) {
     if (path.from_sun) add_atomically(sun_[slot], path.weights[0]);
     for (int k = 0; k < 3; ++k) {
         add_atomically(towards_[3 * slot + static_cast<std::size_t>(k)], -path.weights[0] * path.direction[k]);
     }
+}
+
+void LightTally::meet_directly(std::size_t slot, const LightPath& path, bool on_back, const BandWeights& kept) {
+    double* const sums = &direct_[slot * of_slot()];
+    for (std::size_t b = 0; b < bands_; ++b) {
+        sums[3 * b + on_back] += path.weights[b];
+        sums[3 * b + 2] += kept[b];
+    }
+    if (path.bounce > 0) return;  // what has been scattered is of no direction
+    if (path.from_sun) sums[3 * bands_] += path.weights[0];
+    for (int k = 0; k < 3; ++k)
+        sums[3 * bands_ + 1 + static_cast<std::size_t>(k)] -= path.weights[0] * path.direction[k];
 }
 
 void LightTally::Ends::add(const Ends& other) {
@@ -50,7 +67,9 @@ void LightTally::Ends::add(const Ends& other) {
 }
 
 glm::dvec3 LightTally::towards(std::size_t slot) const {
-    return {share(towards_[3 * slot]), share(towards_[3 * slot + 1]), share(towards_[3 * slot + 2])};
+    const double* const seen = direct(slot) + 3 * bands_ + 1;
+    return {share(towards_[3 * slot], seen[0]), share(towards_[3 * slot + 1], seen[1]),
+            share(towards_[3 * slot + 2], seen[2])};
 }
 
 }  // namespace espalier::environment

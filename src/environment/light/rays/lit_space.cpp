@@ -38,6 +38,29 @@ std::size_t LitSpace::set(const LitTriangles& triangles, std::span<const LightSe
     return scene_.set_parts(triangles.parts(period_));
 }
 
+bool LitSpace::is_open(const glm::dvec3& from, const glm::dvec3& direction, double length) const {
+    LightPath path{inside(from), direction, near_};
+    if (path.origin.y < soil_ || path.origin.y + length * direction.y < soil_) return false;
+    for (int periods = 0; periods < most_periods; ++periods) {
+        const double limit = std::min(length, to_side(path));
+        if (scene_.is_blocked(glm::vec3(path.origin), glm::vec3(direction), static_cast<float>(path.near),
+                              static_cast<float>(limit))) {
+            return false;
+        }
+        if (limit == length) return true;
+        path.origin += limit * direction;
+        length -= limit;
+        if (direction.y >= 0 && path.origin.y > top_) return true;
+        enter_opposite(path);
+    }
+    return true;
+}
+
+std::optional<RayScene::Hit> LitSpace::met_at(const glm::dvec3& place, const glm::dvec3& towards) const {
+    const glm::dvec3 from = inside(place) + near_ * towards;
+    return scene_.first_hit(glm::vec3(from), glm::vec3(-towards), 0, static_cast<float>(2 * near_));
+}
+
 double LitSpace::to_side(const LightPath& path) const {
     double nearest = far;
     if (!period_) return nearest;

@@ -28,6 +28,8 @@ public:
     const std::optional<Box>& period() const { return period_; }
     /// A little below the ground, so that what is drawn at its height lies on it.
     double soil() const { return soil_; }
+    /// The same place, inside the period.
+    glm::dvec3 inside(const glm::dvec3& place) const { return period_ ? wrapped(place, *period_) : place; }
     /// How far from where it was scattered a path meets nothing.
     double near() const { return near_; }
 
@@ -38,6 +40,11 @@ public:
     /// Goes on to what is met next. pass(to) is called before each stretch.
     template <class Pass>
     Met advance(LightPath& path, const Pass& pass) const;
+    /// Whether nothing is in the way from the surface of a triangle, behind `near`, for that length; the soil neither.
+    bool is_open(const glm::dvec3& from, const glm::dvec3& direction, double length) const;
+    /// What light from a direction meets at a place of a surface, if not that surface itself: something that lies
+    /// within `near` before it, or in the same place.
+    std::optional<RayScene::Hit> met_at(const glm::dvec3& place, const glm::dvec3& towards) const;
 
 private:
     static constexpr double far = std::numeric_limits<double>::infinity();

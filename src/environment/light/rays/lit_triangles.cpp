@@ -121,13 +121,13 @@ double LitTriangles::crowding(const std::vector<RayScene::Part>& parts, const st
     return all > 0 ? sum / all : 0;
 }
 
-glm::dvec3 LitTriangles::area_vector_of(std::size_t triangle) const {
+glm::dvec3 LitTriangles::area_vector(std::size_t triangle) const {
     const glm::dvec3 a(corners_[3 * triangle]), b(corners_[3 * triangle + 1]), c(corners_[3 * triangle + 2]);
     return 0.5 * glm::cross(b - a, c - a);
 }
 
 glm::dvec3 LitTriangles::normal(std::size_t triangle) const {
-    return unit_or(area_vector_of(triangle), glm::dvec3(0));
+    return unit_or(area_vector(triangle), glm::dvec3(0));
 }
 
 }  // namespace espalier::environment

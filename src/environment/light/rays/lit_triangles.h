@@ -42,14 +42,23 @@ public:
     std::vector<RayScene::Part> parts(const std::optional<Box>& period) const;
 
     std::size_t size() const { return owners_.size(); }
-    const Owner& owner(const RayScene::Hit& hit) const { return owners_[number_of(hit)]; }
+    /// The number of a triangle. One part of all triangles begins as the first part does.
+    std::size_t number(const RayScene::Hit& hit) const { return parts_[hit.part].first + hit.triangle; }
+    const Owner& owner(std::size_t triangle) const { return owners_[triangle]; }
+    const Owner& owner(const RayScene::Hit& hit) const { return owners_[number(hit)]; }
     /// Unit normal, from where the corners run round counter-clockwise; zero of a triangle without area.
-    glm::dvec3 normal(const RayScene::Hit& hit) const { return normal(number_of(hit)); }
+    glm::dvec3 normal(std::size_t triangle) const;
+    glm::dvec3 normal(const RayScene::Hit& hit) const { return normal(number(hit)); }
+    /// The normal, as long as the area.
+    glm::dvec3 area_vector(std::size_t triangle) const;
+    std::span<const glm::vec3, 3> corners(std::size_t triangle) const {
+        return std::span<const glm::vec3, 3>(&corners_[3 * triangle], 3);
+    }
     const Box& bounds() const { return bounds_; }
     /// Calls visit(owner, normal as long as the area) for each triangle.
     template <class Visit>
     void visit_areas(const Visit& visit) const {
-        for (std::size_t i = 0; i < owners_.size(); ++i) visit(owners_[i], area_vector_of(i));
+        for (std::size_t i = 0; i < owners_.size(); ++i) visit(owners_[i], area_vector(i));
     }
 
 private:
@@ -60,10 +69,6 @@ private:
 
     std::vector<RayScene::Part> separate_parts(const std::optional<Box>& period) const;
     double crowding(const std::vector<RayScene::Part>& parts, const std::optional<Box>& period) const;
-    // One part of all triangles begins as the first part does.
-    std::size_t number_of(const RayScene::Hit& hit) const { return parts_[hit.part].first + hit.triangle; }
-    glm::dvec3 normal(std::size_t triangle) const;
-    glm::dvec3 area_vector_of(std::size_t triangle) const;
     void add(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, Owner owner);
 
     std::vector<glm::vec3> corners_;  ///< three a triangle

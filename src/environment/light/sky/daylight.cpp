@@ -66,8 +66,9 @@ DaylightSeries::DaylightSeries(const Settings& sky, double lowest_rise, const st
 void DaylightSeries::read_sky(const Settings& sky) {
     kind_ = sky.choice_or("radiance", "overcast", kinds_of_sky());
     parts_ = sky_parts(sky.integer_or("rings", 5, Range::between(1, 64)),
-                       sky.integer_or("around", 8, Range::between(3, 720)));
+                       sky.integer_or("around", 8, Range::between(3, 720)), kind_ == "overcast" ? 2 : 0);
     std::erase_if(parts_, [&](const SkyPart& part) { return part.towards.y < least_rise_; });
+    for (SkyPart& part : parts_) part.window.lowest = std::max(part.window.lowest, least_rise_);
 }
 
 void DaylightSeries::read_steady(const Settings& sky) {
@@ -194,7 +195,7 @@ SkyRadiance DaylightSeries::radiance(const glm::dvec3& sun) const {
 
 Daylight DaylightSeries::over(double elapsed, double days) const {
     Sums sums;
-    for (const SkyPart& part : parts_) sums.light.beams.push_back({part.towards});
+    for (const SkyPart& part : parts_) sums.light.beams.push_back({part.towards, 0, false, part.window});
     if (steady_) {
         add_steady(days, sums);
     } else if (series_) {

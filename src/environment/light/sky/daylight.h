@@ -23,6 +23,10 @@ struct LightBeam {
     glm::dvec3 towards;   ///< the light's source, a unit vector
     double photons = 0;   ///< mol of photosynthetically active photons (PAR) per m2 across the direction
     bool is_sun = false;  ///< or a part of the sky
+    SkyWindow window{};   ///< of that part
+
+    /// mol/m2 that it brings to open level ground.
+    double on_ground() const { return photons * towards.y; }
 };
 
 /// A span of time's light.
