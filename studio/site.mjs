@@ -75,13 +75,14 @@ function to85(bytes) {
 }
 
 function packedByXz(bytes) {
-  return execFileSync("xz", ["--format=xz", "--check=crc32", "-9e", "--stdout"], { input: bytes, maxBuffer: 1 << 26 });
+  const options = ["--format=xz", "--check=crc32", "--lzma2=preset=9e,lc=4,lp=0,pb=0", "--stdout"]; // bytes, not words
+  return execFileSync("xz", options, { input: bytes, maxBuffer: 1 << 26 });
 }
 
 /** One file: scripts, styles and parts are elements of it. */
 function singleFile(parts) {
   const text = (name) => readFileSync(join(studio, "dist", name), "utf8");
-  const elements = Object.entries({ ...parts, "studio.js": gzipSync(text("studio.js"), { level: 9 }) }).map(
+  const elements = Object.entries({ ...parts, "studio.js": packedByXz(text("studio.js")) }).map(
     ([name, bytes]) => `<script type="application/base85" id="part-${name}">${to85(bytes)}</script>\n`,
   );
   const icon = `data:image/svg+xml;base64,${Buffer.from(text("icon.svg")).toString("base64")}`;

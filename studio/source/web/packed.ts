@@ -1,4 +1,4 @@
-/** Parts of a page as bytes: they are packed by gzip or xz, and in a page of one file written in 85 letters. */
+/** Parts of a page of one file: elements that have bytes written in letters. */
 
 /** Those that need no escape in a page. `studio/site.mjs` writes with them. */
 const letters = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%()*+,-./:;=?@[]^_{|}";
@@ -25,12 +25,4 @@ export function bytesInside(name: string): Uint8Array<ArrayBuffer> | null {
   const element = document.getElementById(`part-${name}`) as HTMLScriptElement | null;
   const text = element?.textContent?.trim() ?? "";
   return element && (element.type === "application/base85" ? from85(text) : from64(text));
-}
-
-export function isGzip(bytes: Uint8Array): boolean {
-  return bytes[0] === 0x1f && bytes[1] === 0x8b;
-}
-
-export function unzipped(bytes: Uint8Array<ArrayBuffer>): Promise<ArrayBuffer> {
-  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
 }

@@ -1,6 +1,6 @@
 /** The parts of a page that has its own session: files beside it, or, in a page that is one file, elements of it. */
 import { XzReadableStream } from "xz-decompress";
-import { bytesInside, isGzip, unzipped } from "./packed.js";
+import { bytesInside } from "./packed.js";
 
 /** Whether the page has one: its document says where the parts are. */
 export function hasOwnSession(): boolean {
@@ -16,15 +16,17 @@ async function packed(name: string): Promise<Uint8Array<ArrayBuffer>> {
   return new Uint8Array(await response.arrayBuffer());
 }
 
-function isXz(bytes: Uint8Array): boolean {
-  return bytes[0] === 0xfd && bytes[1] === 0x37;
+function unpacker(bytes: Uint8Array): ((packed: ReadableStream<Uint8Array<ArrayBuffer>>) => ReadableStream) | null {
+  if (bytes[0] === 0xfd && bytes[1] === 0x37) return (packed) => new XzReadableStream(packed);
+  if (bytes[0] === 0x1f && bytes[1] === 0x8b) return (packed) => packed.pipeThrough(new DecompressionStream("gzip"));
+  return null;
 }
 
 /** A part, unpacked; a server may have unpacked it on the way. */
 export async function part(name: string): Promise<ArrayBuffer> {
   const bytes = await packed(name);
-  if (isXz(bytes)) return new Response(new XzReadableStream(new Blob([bytes]).stream())).arrayBuffer();
-  return isGzip(bytes) ? unzipped(bytes) : bytes.buffer;
+  const unpack = unpacker(bytes);
+  return unpack ? new Response(unpack(new Blob([bytes]).stream())).arrayBuffer() : bytes.buffer;
 }
 
 /** Where a text that is a part of the page can be read; null: it is a file. */
