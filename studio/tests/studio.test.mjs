@@ -437,6 +437,7 @@ test("the work is found again after the program was killed in the middle of a gr
   await page.locator(".cm-content").click();
   await page.keyboard.press("Control+Home");
   await page.keyboard.type("/* kept work */ ");
+  await page.getByRole("tab", { name: "Settings" }).click();
   await page.locator("#setting-steps").fill("14");
   await page.keyboard.press("Enter");
   await keeps(place, "kept work", '"steps":14');

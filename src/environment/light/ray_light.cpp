@@ -1,6 +1,7 @@
 // ray-light: photons of sun, sky and lamps that each drawn leaf and stem absorbs, by rays from these to the light, and
-// paths of light through the drawn plants. Chelle & Andrieu 1998, The nested radiosity model for the distribution of light within plant canopies, for
-// the question; Veach 1997, Robust Monte Carlo methods for light transport simulation, for the method.
+// paths of light through the drawn plants. Chelle & Andrieu 1998, The nested radiosity model for the distribution of
+// light within plant canopies, for the question; Veach 1997, Robust Monte Carlo methods for light transport simulation,
+// for the method.
 #include "espalier/environment/environment_process.h"
 
 #include "base/text.h"

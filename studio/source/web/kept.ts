@@ -2,7 +2,10 @@
 import type { KeptFile } from "./messages.js";
 
 /** Pages of one growth keep what is theirs. */
-const name = document.documentElement.dataset.open ? `espalier-studio ${location.pathname}` : "espalier-studio";
+function nameOfStore(): string {
+  return document.documentElement.dataset.open ? `espalier-studio ${location.pathname}` : "espalier-studio";
+}
+
 const store = "files";
 
 const files = new Map<string, Uint8Array<ArrayBuffer>>();
@@ -13,7 +16,7 @@ let database: Promise<IDBDatabase | null> | null = null;
 function open(): Promise<IDBDatabase | null> {
   return new Promise((resolve) => {
     try {
-      const request = indexedDB.open(name, 1);
+      const request = indexedDB.open(nameOfStore(), 1);
       request.onupgradeneeded = () => request.result.createObjectStore(store);
       request.onsuccess = () => resolve(request.result);
       request.onerror = () => resolve(null);

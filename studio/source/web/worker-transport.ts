@@ -12,12 +12,11 @@ const patience = 900; // ms
 
 const firstTree = "/library/environments/tree.toml";
 /** A page of one growth says its file, and its seed. */
-const { open: own, seed: ownSeed } = document.documentElement.dataset;
-
 function howToBegin(isFirst: boolean): Begin {
-  if (!own) return { open: firstTree, seed: Math.floor(Math.random() * 1000) };
-  const begin: Begin = { open: own, named: isFirst }; // those that follow begin with what is kept
-  if (ownSeed) begin.seed = Number(ownSeed);
+  const { open, seed } = document.documentElement.dataset;
+  if (!open) return { open: firstTree, seed: Math.floor(Math.random() * 1000) };
+  const begin: Begin = { open, named: isFirst }; // those that follow begin with what is kept
+  if (seed) begin.seed = Number(seed);
   return begin;
 }
 
