@@ -100,8 +100,13 @@ TEST_CASE_METHOD(Launched, "a disk that is full for one rank ends all; what was 
     const std::string command =
         "cd '" + path().string() + "' && " + mpiexec +
         "-n 2 sh rank.sh run pieces.toml --quiet --threads 1 --output full --checkpoint-every 1 >.out 2>.err";
-    CHECK(code_of(std::system(command.c_str())) == 2);
+    const int code = code_of(std::system(command.c_str()));
     const std::string told = text_of(path() / ".err");
+    if (told.find("shared memory initialization") != std::string::npos) {
+        WARN("skipped: this MPI needs larger files for its own memory");  // Open MPI 5
+        return;
+    }
+    CHECK(code == 2);
     CHECK_THAT(told, Contains("rank 1 of 2") && Contains("cannot write"));
     CHECK(told.find("cannot write") == told.rfind("cannot write"));
     const std::string index = text_of(path() / "full" / "plants.pvd");
