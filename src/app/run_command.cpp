@@ -70,6 +70,26 @@ std::string way_on(const fs::path& output) {
            "--continue begins it again";
 }
 
+/// Of all files below a folder.
+std::uintmax_t bytes_below(const fs::path& folder) {
+    std::uintmax_t sum = 0;
+    std::error_code ignored;
+    for (fs::recursive_directory_iterator at(folder, ignored); !ignored && at != end(at); at.increment(ignored)) {
+        std::error_code gone;
+        const std::uintmax_t bytes = at->is_regular_file(gone) ? at->file_size(gone) : 0;
+        if (!gone) sum += bytes;
+    }
+    return sum;
+}
+
+/// "468 MB", "12.3 MB", "0.04 MB".
+std::string megabytes(std::uintmax_t bytes) {
+    return fmt::format("{:.{}f} MB", static_cast<double>(bytes) / 1e6,
+                       bytes < 1'000'000     ? 2
+                       : bytes < 100'000'000 ? 1
+                                             : 0);
+}
+
 void print_result(const RunArguments& arguments, const Scene& scene, const fs::path& output, const RunResult& result) {
     if (arguments.json) {
         const nlohmann::ordered_json json = {{"exit", result.interrupted ? "interrupted" : "done"},
@@ -80,17 +100,18 @@ void print_result(const RunArguments& arguments, const Scene& scene, const fs::p
                                              {"plants", scene.plants.size()},
                                              {"modules", result.modules},
                                              {"peak_memory", result.peak_memory},
+                                             {"bytes", bytes_below(output)},
                                              {"seconds", result.seconds}};
         fmt::print("{}\n", json_text(json));
         return;
     }
     if (arguments.quiet) return;
-    fmt::print("{}: {} of {} steps{}, {} modules in {} plant{}, {}\n", scene.name, result.steps, result.last_step,
+    fmt::print("{}: {} of {} steps{}, {} modules in {} plant{}, {}, {}\n", scene.name, result.steps, result.last_step,
                result.interrupted ? " (interrupted)"
                : result.stopped   ? " (the model stopped)"
                                   : "",
                grouped(result.modules), scene.plants.size(), scene.plants.size() == 1 ? "" : "s",
-               duration_text(result.seconds));
+               duration_text(result.seconds), megabytes(bytes_below(output)));
     fmt::print("{}\n", (output / "").string());
     if (result.interrupted) fmt::print(stderr, "{}\n", way_on(output));
 }

@@ -61,6 +61,18 @@ TEST_CASE_METHOD(Workplace, "a model on its own runs, tells where its output is,
     CHECK(summary["bytes"] > std::filesystem::file_size(path() / "there" / "run.json"));
 }
 
+TEST_CASE_METHOD(Workplace, "a run says at its end how many bytes it wrote", "[app]") {
+    write("grow.l", "lsystem: 1\nderivation length: 6\naxiom: A\nA --> F(1)[+A]A\nendlsystem\n");
+    const Outcome outcome = run("run grow.l --output out --json");
+    REQUIRE(outcome.code == 0);
+    std::uintmax_t bytes = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(path() / "out")) {
+        if (entry.is_regular_file()) bytes += entry.file_size();
+    }
+    CHECK(nlohmann::json::parse(outcome.out)["bytes"] == bytes);
+    CHECK_THAT(run("run grow.l --output out --overwrite").out, Contains("s, 0.0") && Contains(" MB\n"));
+}
+
 TEST_CASE_METHOD(Workplace, "info counts a frame of several files once", "[app]") {
     write("bush.l", models::bush);
     write("pair.toml",
