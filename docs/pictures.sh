@@ -253,6 +253,10 @@ grow season-dry environments/season.toml --set environment.air.rain_factor=0.5
 "$espalier" plot "$work/price-of-shade" "$work/price-of-shade-alone" --quantity carbon.structure,carbon.gain,carbon.shed \
     --output "$pictures/price-of-shade.png"
 "$espalier" render "$work/fruiting-shoot" --colour-by carbon.sugar --output "$pictures/fruiting-shoot.png" --size 600x600 --quiet
+"$espalier" render "$work/price-of-shade" --size 300x240 --rate 6 --time --output "$pictures/price-of-shade.gif" --quiet
+grow fruiting-film environments/fruiting-shoot.toml --set timeline.every=2
+"$espalier" render "$work/fruiting-film" --colour-by carbon.sugar --size 260x300 --rate 6 --time --no-ground \
+    --output "$pictures/fruiting-shoot.gif" --quiet
 "$espalier" plot "$work/dry-spell" "$work/dry-spell-wet" --quantity length,internodes --output "$pictures/dry-spell-plot.png"
 "$espalier" plot "$work/split-pot" "$work/split-wet" "$work/split-feddes" --quantity roots.transpiration,roots.collar \
     --output "$pictures/split-plot.png"

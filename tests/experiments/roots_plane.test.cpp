@@ -13,11 +13,11 @@ constexpr double wet_enough = 0.18;  ///< half way between dry and wet in root-2
 constexpr double end_of_s = -1.08;   ///< the S reaches down to here, m
 
 /// Seeds 1 to 10 of a scene, grown once.
-const std::vector<Grown>& ten(std::string scene) {
+const std::vector<Grown>& ten(const char* scene) {
     static std::map<std::string, std::vector<Grown>> grown;
     std::vector<Grown>& runs = grown[scene];
     for (int seed = static_cast<int>(runs.size()) + 1; seed <= seeds_in_plane; ++seed) {
-        runs.push_back(grow_watched("environments/" + scene, with_seed(seed)));
+        runs.push_back(grow_watched(std::string("environments/") + scene, with_seed(seed)));
     }
     return runs;
 }

@@ -37,7 +37,7 @@ Crossing cross(const std::string& scene, const SceneOptions& options) {
 }
 
 /// Seeds 1 to 20 of a scene, grown once.
-const std::vector<Crossing>& twenty(std::string scene) {
+const std::vector<Crossing>& twenty(const char* scene) {
     static std::map<std::string, std::vector<Crossing>> grown;
     std::vector<Crossing>& runs = grown[scene];
     for (int seed = static_cast<int>(runs.size()) + 1; seed <= seeds_in_space; ++seed) {
