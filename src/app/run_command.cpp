@@ -2,6 +2,7 @@
 
 #include "espalier/base/file.h"
 
+#include "base/folder.h"
 #include "base/json_text.h"
 #include "child.h"
 #include "command.h"
@@ -68,18 +69,6 @@ std::string way_on(const fs::path& output) {
     }
     return "the run has no checkpoint, because it was interrupted within its first long step; the same command with "
            "--continue begins it again";
-}
-
-/// Of all files below a folder.
-std::uintmax_t bytes_below(const fs::path& folder) {
-    std::uintmax_t sum = 0;
-    std::error_code ignored;
-    for (fs::recursive_directory_iterator at(folder, ignored); !ignored && at != end(at); at.increment(ignored)) {
-        std::error_code gone;
-        const std::uintmax_t bytes = at->is_regular_file(gone) ? at->file_size(gone) : 0;
-        if (!gone) sum += bytes;
-    }
-    return sum;
 }
 
 /// "468 MB", "12.3 MB", "0.04 MB".

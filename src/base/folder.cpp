@@ -65,6 +65,18 @@ bool is_folder_itself(const fs::path& path) {
     return fs::is_directory(fs::symlink_status(path, unknown));
 }
 
+std::uintmax_t bytes_below(const fs::path& folder) {
+    std::uintmax_t bytes = 0;
+    std::error_code error;
+    for (fs::recursive_directory_iterator item(folder, error), end; !error && item != end; item.increment(error)) {
+        std::error_code gone;
+        if (!item->is_regular_file(gone)) continue;
+        const std::uintmax_t size = item->file_size(gone);
+        if (!gone) bytes += size;
+    }
+    return bytes;
+}
+
 std::string reason_of(const std::error_code& error) {
     if (error == std::errc::too_many_symbolic_link_levels) return "it is a link, which is not followed for writing";
     return error.message();

@@ -1,6 +1,7 @@
 // Folders, and what lies in them.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -20,6 +21,9 @@ void append_text(const std::filesystem::path& path, std::string_view text);
 
 /// A folder itself, and no link to one.
 bool is_folder_itself(const std::filesystem::path& path);
+
+/// Of all files below a folder. Those that vanish meanwhile were temporary.
+std::uintmax_t bytes_below(const std::filesystem::path& folder);
 
 /// The system's reason, in words of our own where those mislead.
 std::string reason_of(const std::error_code& error);

@@ -7,6 +7,7 @@
 #include "app/command.h"
 #include "app/measured_report.h"
 #include "app/progress.h"
+#include "base/folder.h"
 #include "base/json_text.h"
 #include "base/number.h"
 #include "base/text.h"
@@ -56,16 +57,6 @@ Json json_of(const RecordedTable& last) {
         rows.push_back(std::move(row));
     }
     return rows;
-}
-
-std::uintmax_t bytes_in(const fs::path& folder) {
-    std::uintmax_t bytes = 0;
-    std::error_code gone;  // a run that goes on renames its files meanwhile
-    for (fs::recursive_directory_iterator entry(folder, gone), end; entry != end; entry.increment(gone)) {
-        const std::uintmax_t size = entry->is_regular_file(gone) ? entry->file_size(gone) : 0;
-        if (!gone) bytes += size;
-    }
-    return bytes;
 }
 
 /// Further files of a frame that is cut into several have a dash in their names.
@@ -132,7 +123,7 @@ Json summary_of(const fs::path& folder, const Json& run, const RecordedTable& la
     summary["frames"] = count_frames(folder / "plants", ".vtp");
     summary["fields"] = fields_of(folder / "fields");
     summary["plants"] = run.value("plants", Json::array());
-    summary["bytes"] = bytes_in(folder);
+    summary["bytes"] = bytes_below(folder);
     summary["last_step"] = json_of(last);
     return summary;
 }

@@ -1,5 +1,7 @@
 #include "simulation/run/disk_budget.h"
 
+#include "base/folder.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,24 +9,8 @@
 #include <utility>
 
 namespace espalier::simulation {
-namespace {
 
 namespace fs = std::filesystem;
-
-// Files that vanish meanwhile were temporary.
-std::uintmax_t bytes_below(const fs::path& folder) {
-    std::uintmax_t bytes = 0;
-    std::error_code error;
-    for (fs::recursive_directory_iterator item(folder, error), end; !error && item != end; item.increment(error)) {
-        std::error_code gone;
-        if (!item->is_regular_file(gone)) continue;
-        const std::uintmax_t size = item->file_size(gone);
-        if (!gone) bytes += size;
-    }
-    return bytes;
-}
-
-}  // namespace
 
 DiskBudget::DiskBudget(const fs::path& folder, std::uintmax_t bytes, bool resumed) : folder_(folder), bytes_(bytes) {
     look();

@@ -37,6 +37,15 @@ bool is_black(const OpticsOfBands& optics) {
                         [](const SideOptics& of) { return of.reflectance > 0 || of.transmittance > 0; });
 }
 
+/// What stays of a path's light where it meets something.
+BandWeights kept_by(const OpticsOfBands& optics, const LightPath& path) {
+    BandWeights kept{};
+    for (std::size_t b = 0; b < most_bands; ++b) {
+        kept[b] = path.weights[b] * (1 - optics[b].reflectance - optics[b].transmittance);
+    }
+    return kept;
+}
+
 /// Takes from a path what stays where it meets something, and returns that; what is transmitted goes to `through`, the
 /// rest is reflected. Of much light a share stays; of little all or nothing, so that paths end and none of it is lost.
 BandWeights divide(LightPath& path, LightPath& through, const OpticsOfBands& optics,
@@ -213,10 +222,7 @@ void LightPaths::add_points(const LightProjection& projection, LightPath path, d
         path.weights.fill(of_point * count);
         const bool on_back = glm::dot(path.direction, triangles_->normal(triangle)) > 0;
         const OpticsOfBands optics = optics_of(owner, on_back);
-        BandWeights kept{};
-        for (std::size_t b = 0; b < bands(); ++b) {
-            kept[b] = path.weights[b] * (1 - optics[b].reflectance - optics[b].transmittance);
-        }
+        const BandWeights kept = kept_by(optics, path);
         tally_.add(ends.brought, kept);
         record(path, owner, on_back, kept, ends);
     }
@@ -316,10 +322,7 @@ void LightPaths::gather(const Sender& sender, Ends& ends) {
         for (double& light : path.weights) light *= paths_ * surface / (sources_.light() * count * kinds);
         path.bounce = 1;
         const OpticsOfBands optics = optics_of(owner, on_back);
-        BandWeights kept{};
-        for (std::size_t b = 0; b < bands(); ++b) {
-            kept[b] = path.weights[b] * (1 - optics[b].reflectance - optics[b].transmittance);
-        }
+        const BandWeights kept = kept_by(optics, path);
         tally_.add(ends.brought, kept);
         tally_.meet_directly(owner.slot, path, on_back && owner.kind == LitKind::leaf, kept);
     }

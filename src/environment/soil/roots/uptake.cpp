@@ -7,8 +7,20 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace espalier::environment {
+namespace {
+
+/// The flow from soil of one total head, 1 cm above that of the collar; returns the conductance of all roots.
+double flow_from_uniform_soil(std::vector<RootPiece>& pieces, HydraulicTree& tree, RootFlow& flow) {
+    for (RootPiece& piece : pieces) piece.outside = 1;
+    const double conductance = tree.look(pieces).conductance;
+    tree.flow(pieces, 0, flow);
+    return conductance;
+}
+
+}  // namespace
 
 double FeddesHeads::factor(double head) const {
     if (head >= anaerobic || head <= wilting) return 0;
@@ -37,15 +49,11 @@ PlantUptake::PlantUptake(PlantRoots roots, const SoilLayout& soil) : roots_(std:
     water_.by_head.assign(count, 0);
     water_.surface.assign(count, 0);
     water_.xylem.assign(count, 0);
-    moved_.assign(count, 0);
     measure_conductance();
 }
 
-/// In soil of one total head, 1 cm above that of the collar.
 void PlantUptake::measure_conductance() {
-    for (RootPiece& piece : roots_.pieces) piece.outside = 1;
-    water_.conductance = tree_.look(roots_.pieces).conductance;
-    tree_.flow(roots_.pieces, 0, flow_);
+    water_.conductance = flow_from_uniform_soil(roots_.pieces, tree_, flow_);
     water_.fractions = flow_.uptake;
     for (double& fraction : water_.fractions) fraction = water_.conductance > 0 ? fraction / water_.conductance : 0;
 }
@@ -98,13 +106,10 @@ void PlantUptake::solve_under(std::span<const SoilPoint> points, CollarEnd& shoo
 
 bool PlantUptake::answer_together(std::vector<double>& by_collar, double& collar) const {
     if (!shoot_by_head_ || roots_.pieces.empty()) return false;
-    // What pieces take of soil with a head of 1 while the collar has 0.
     std::vector<RootPiece> pieces = roots_.pieces;
-    for (RootPiece& piece : pieces) piece.outside = 1;
     HydraulicTree tree;
     RootFlow flow;
-    collar = tree.look(pieces).conductance + *shoot_by_head_;
-    tree.flow(pieces, 0, flow);
+    collar = flow_from_uniform_soil(pieces, tree, flow) + *shoot_by_head_;
     by_collar = std::move(flow.uptake);
     return collar > 0;
 }
@@ -135,25 +140,23 @@ double PlantUptake::mean_uptake(std::size_t piece) const {
 /// these is solved exactly.
 void PlantUptake::solve_network(std::span<const SoilPoint> points,
                                 const std::function<double(const CollarView&)>& collar_head) {
+    const tbb::blocked_range<std::size_t> all(0, radial_.size(), 4096);
+    const auto take = [&](const auto& part, double most) {
+        for (std::size_t i = part.begin(); i != part.end(); ++i) most = std::max(most, take_flow(i));
+        return most;
+    };
     for (int step = 0; step < 60; ++step) {
-        for_pieces([&](std::size_t i) { find_tangent(i, points); });
+        for_in_parallel(all, [&](const auto& part) {
+            for (std::size_t i = part.begin(); i != part.end(); ++i) find_tangent(i, points);
+        });
         const CollarView view = tree_.look(roots_.pieces);
         const double head = collar_head(view);
         tree_.flow(roots_.pieces, head, flow_);
-        for_pieces([&](std::size_t i) { take_flow(i); });
+        const double moved = reduce_in_parallel(all, 0.0, take, [](double a, double b) { return std::max(a, b); });
         water_.collar = head - roots_.collar_height;
         // Newton's method doubles the digits: what is left is below 1e-9.
-        if (*std::max_element(moved_.begin(), moved_.end()) < 1e-6) break;
+        if (moved < 1e-6) break;
     }
-}
-
-/// Calls work(piece) for all pieces, in parallel where that pays.
-template <class Work>
-void PlantUptake::for_pieces(Work work) const {
-    constexpr std::size_t grain = 4096;
-    for_in_parallel(tbb::blocked_range<std::size_t>(0, radial_.size(), grain), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) work(i);
-    });
 }
 
 /// Of the flow into a piece at its present head.
@@ -169,15 +172,15 @@ void PlantUptake::find_tangent(std::size_t i, std::span<const SoilPoint> points)
     water_.by_head[i] = flow.by_soil * piece.surface_per_length * piece.length;
 }
 
-/// What the tree has for a piece: its uptake, its head, and how far that moved.
-void PlantUptake::take_flow(std::size_t i) {
+/// Takes what the tree has for a piece, its uptake and its head; returns how far that moved, relative.
+double PlantUptake::take_flow(std::size_t i) {
     const RootPiece& piece = roots_.pieces[i];
     const double wall = piece.radial * piece.surface_per_length * piece.length;
     water_.uptake[i] = flow_.uptake[i];
-    if (!(wall > 0)) return;
+    if (!(wall > 0)) return 0;
     const double xylem = piece.outside - flow_.uptake[i] / wall - heights_[i];
-    moved_[i] = std::abs(xylem - water_.xylem[i]) / (1 + std::abs(xylem));
-    water_.xylem[i] = xylem;
+    const double before = std::exchange(water_.xylem[i], xylem);
+    return std::abs(xylem - before) / (1 + std::abs(xylem));
 }
 
 /// Feddes: each root takes its share of the demand, by its length, as far as the soil gives it. Couvreur: the shares of

@@ -64,10 +64,8 @@ public:
 private:
     void begin(std::span<const SoilPoint> points);
     void solve_network(std::span<const SoilPoint> points, const std::function<double(const CollarView&)>& collar_head);
-    template <class Work>
-    void for_pieces(Work work) const;
     void find_tangent(std::size_t piece, std::span<const SoilPoint> points);
-    void take_flow(std::size_t piece);
+    double take_flow(std::size_t piece);
     void solve_macroscopic(std::span<const SoilPoint> points, UptakeModel model, const RootCollar& collar,
                            const FeddesHeads& feddes, double demand, double held_head);
     void measure_conductance();
@@ -80,7 +78,6 @@ private:
     HydraulicTree tree_;
     RootFlow flow_;
     PlantWater water_;
-    std::vector<double> moved_;            ///< how far the head of each piece moved in the last step, relative
     std::vector<double> rates_;            ///< at which each piece took up water last, cm3/d
     std::vector<double> taken_;            ///< by each piece in the step, cm3
     double days_ = 0;                      ///< of the step that have passed
