@@ -26,6 +26,8 @@ if(ESPALIER_LOOK)
     RenderingContextOpenGL2 RenderingFreeType RenderingOpenGL2 RenderingUI RenderingVolume RenderingVolumeOpenGL2)
   find_package(Boost 1.74 REQUIRED)  # Beast and Asio are headers
   find_package(Qhull REQUIRED)  # convex hulls
+  find_path(CMARK_INCLUDE_DIR cmark.h REQUIRED)  # Markdown of lessons; its CMake package wants the program, too
+  find_library(CMARK_LIBRARY cmark REQUIRED)
   find_package(NLopt REQUIRED)  # searches for parameters
   find_package(OpenGL QUIET COMPONENTS EGL)  # pictures without a display
 endif()

@@ -37,7 +37,7 @@ add_link_options(-fwasm-exceptions)
 # What pages do without: files of OpenVDB, functions for other processors, the server and recorded runs. Of the half that
 # looks they have what the studio's session shows.
 set(left_out "^geometry/grids/(vdb_file|vdb_tree|vdb_bytes|written_grid)[.]"
-  "^base/platform_windows[.]" "_columns_(256|512)[.]" "^studio/(server/|growth/(recording|recorded_frame)[.])"
+  "^base/platform_windows[.]" "_columns_(256|512)[.]" "^studio/(server/|lesson/|growth/(recording|recorded_frame)[.])"
   "^(archive|formats|picture)/")
 set(kept "^picture/light/sky_light[.]" "^archive/(recorded_run|joined_pieces|facet_areas|frame_rows|xml)[.]"
   "^formats/(export|glb|growth_nodes|map_place|mesh_files|textures|usd_[a-z]+)[.]"

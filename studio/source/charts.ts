@@ -25,7 +25,10 @@ export class ChartsPanel {
   constructor(
     private readonly studio: Studio,
     private readonly timeline: Timeline,
+    /** Columns that the author of a page asks for; none: those that were chosen last. */
+    wanted: string[] = [],
   ) {
+    if (wanted.length > 0) this.chosen = wanted;
     this.pinButton = h(
       "button",
       "button small",

@@ -17,6 +17,8 @@ export interface HeaderParts {
   layout: Layout;
   scene: PlantScene;
   gallery: () => void;
+  /** What the page is called; "": as the document. */
+  title: string;
 }
 
 export class Header {
@@ -97,9 +99,10 @@ export class Header {
   private show(): void {
     const { document } = this.parts.studio;
     const changed = document?.texts.some((text) => text.changed) || document?.settings.some((setting) => setting.changed);
-    this.name.replaceChildren(document?.name ?? "", changed ? h("small", "", {}, "changed") : "");
+    const name = this.parts.title || document?.name || "";
+    this.name.replaceChildren(name, changed ? h("small", "", {}, "changed") : "");
     this.name.title = document?.path ?? "";
-    window.document.title = document ? `${document.name} – Espalier studio` : "Espalier studio";
+    window.document.title = name ? `${name} – Espalier studio` : "Espalier studio";
     this.undoButton.disabled = !document?.undo;
     this.redoButton.disabled = !document?.redo;
     setLabel(this.undoButton, document?.undo ? `Undo: ${document.undo} (Ctrl+Z)` : "Nothing to undo");

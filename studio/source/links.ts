@@ -49,6 +49,19 @@ function agreed(contents: LinkContents): Promise<boolean> {
   });
 }
 
+/** `#open=environments/two-trees.toml` opens a file of the library. */
+export async function openNamed(studio: Studio, fragment: string): Promise<boolean> {
+  const name = /[#&]open=([\w./-]+)/.exec(fragment)?.[1];
+  if (!name) return false;
+  const library = await studio.ask("library", {});
+  const entry = library?.library.find(({ path }) => path.endsWith(`/${name}`));
+  if (!entry) {
+    studio.tell("error", `The library has no ${name}.`);
+    return false;
+  }
+  return (await studio.ask("open", { path: entry.path })) !== undefined;
+}
+
 /** True if the link's model is open now; false if there is none in it, or the user thought better of it. */
 export async function openLink(studio: Studio, text: string): Promise<boolean> {
   try {

@@ -10,7 +10,8 @@ import { Layout, Tabs } from "./layout.js";
 import { Messages } from "./messages.js";
 import { PickPanel } from "./pick.js";
 import { SettingsPanel } from "./settings.js";
-import { hasModel, openLink } from "./links.js";
+import { lessonOfPage, LessonPanel, type Lesson } from "./lesson.js";
+import { hasModel, openLink, openNamed } from "./links.js";
 import { tellReadiness } from "./readiness.js";
 import { Studio } from "./state.js";
 import { StatusLine } from "./status.js";
@@ -52,19 +53,30 @@ function keysOfThePage(header: Header, timeline: Timeline, forget: () => void): 
 /** A link that was opened as the address of this page. */
 async function openAddress(studio: Studio): Promise<boolean> {
   const fragment = location.hash;
-  if (!hasModel(fragment)) return false;
+  if (!hasModel(fragment)) return openNamed(studio, fragment);
   history.replaceState(null, "", location.pathname);
   return openLink(studio, fragment);
 }
 
+/** The lesson before the texts; where these are hidden, alone. */
+function showLesson(lesson: Lesson, panel: LessonPanel, editor: Editor, layout: Layout): void {
+  const first = { name: "Lesson", content: panel.element };
+  const shown = new Tabs("Lesson and texts", [first, { name: "Texts", content: editor.element }], "lesson-tab");
+  shown.offer("Texts", lesson.texts !== "hidden");
+  shown.show("Lesson");
+  layout.left.append(shown.element);
+  layout.setOpen("left", true);
+}
+
 function start(): void {
+  const lesson = lessonOfPage();
   const studio = new Studio(takeKey());
   useTheme(studio);
   tellReadiness(studio);
   const changes = new Changes(studio);
   const layout = new Layout();
   const timeline = new Timeline(studio);
-  const editor = new Editor(studio, changes);
+  const editor = new Editor(studio, changes, lesson !== null && lesson.texts !== "free");
   const messages = new Messages(studio);
   const viewport = new Viewport(studio, timeline, (module) => void picked.pick(module));
   const picked: PickPanel = new PickPanel(
@@ -78,7 +90,7 @@ function start(): void {
     },
   );
   timeline.started = () => viewport.hints.did("played");
-  const charts = new ChartsPanel(studio, timeline);
+  const charts = new ChartsPanel(studio, timeline, lesson?.charts);
   const settings = new SettingsPanel(studio, changes);
   const gallery = new Gallery(studio, () => studio.frames.look("last"));
   const graph: GraphPanel = new GraphPanel(studio, changes, editor, (offered) => tabs.offer("Graph", offered));
@@ -93,9 +105,14 @@ function start(): void {
     "right-tab",
   );
   tabs.offer("Graph", false);
-  const header = new Header({ studio, changes, editor, layout, scene: viewport.scene, gallery: () => void gallery.show() });
+  const title = lesson?.title ?? "";
+  const header = new Header({ studio, changes, editor, layout, scene: viewport.scene, gallery: () => void gallery.show(), title });
   header.shared = () => viewport.hints.did("shared");
-  layout.left.append(editor.element);
+  if (lesson) {
+    showLesson(lesson, new LessonPanel(studio, changes, lesson), editor, layout);
+    tabs.offer("Settings", lesson.texts === "free");
+    tabs.show("Charts");
+  } else layout.left.append(editor.element);
   layout.right.append(tabs.element);
   layout.centre.append(viewport.element);
   document.body.append(

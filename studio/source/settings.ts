@@ -82,8 +82,15 @@ export class SettingsPanel {
   constructor(
     private readonly studio: Studio,
     private readonly changes: Changes,
+    /** Names of those that it shows, in their order, and nothing else; null: all, with seed and steps. */
+    private readonly chosen: string[] | null = null,
   ) {
-    studio.on("document", (document) => this.show(document));
+    studio.on("document", (document) => this.show({ ...document, settings: this.choose(document) }));
+  }
+
+  private choose({ settings }: StudioDocument): Setting[] {
+    if (this.chosen === null) return settings;
+    return this.chosen.flatMap((name) => settings.filter((setting) => setting.name === name)).map((setting) => ({ ...setting, group: "" }));
   }
 
   private show(document: StudioDocument): void {
@@ -111,11 +118,11 @@ export class SettingsPanel {
     const groups = new Map<string, Setting[]>();
     for (const setting of document.settings) groups.set(setting.group, [...(groups.get(setting.group) ?? []), setting]);
     const parts = [...groups].map(([name, settings]) => this.group(name, settings, groups.size));
-    if (parts.length === 0)
+    if (parts.length === 0 && this.chosen === null)
       parts.push(
         h("p", "hint", {}, "This document has no settings. A line such as #define ANGLE 25 in the model becomes a slider here."),
       );
-    this.element.replaceChildren(this.simulation(document), ...parts);
+    this.element.replaceChildren(...(this.chosen === null ? [this.simulation(document)] : []), ...parts);
   }
 
   private group(name: string, settings: Setting[], count: number): HTMLElement {

@@ -150,6 +150,7 @@ const std::map<std::string, std::vector<Room>> stations{
          {"document", "protocol"},
          {"growth", "packets protocol document"},
          {"session", "packets protocol document growth"},
+         {"lesson", "document session"},
          {"server", "protocol growth session"},
          {"session/requests", "document session"},
      }},

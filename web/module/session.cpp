@@ -75,6 +75,7 @@ private:
         options.state = "/state/studio.json";
         options.opened.path = begin.value("open", "");
         if (begin.contains("seed")) options.opened.seed = begin["seed"].get<std::uint64_t>();
+        if (begin.contains("steps")) options.opened.steps = begin["steps"].get<int>();
         options.is_named = begin.value("named", false);
         options.memory = std::size_t{begin.value("memory", 1024u)} << 20;
         options.read = [](const Opened& opened) {
@@ -110,8 +111,8 @@ using espalier::studio::studio_of_page;
 
 extern "C" {
 
-/// Begins with what the page says, JSON: open (a path, "" for none), seed, named, memory (MiB). Returns why it cannot,
-/// or "".
+/// Begins with what the page says, JSON: open (a path, "" for none), seed, steps, named, memory (MiB). Returns why it
+/// cannot, or "".
 EMSCRIPTEN_KEEPALIVE const char* espalier_begin(const char* begin) {
     try {
         studio_of_page = std::make_unique<espalier::studio::WebStudio>(nlohmann::ordered_json::parse(begin));

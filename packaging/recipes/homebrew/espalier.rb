@@ -11,6 +11,7 @@ class Espalier < Formula
   depends_on "ninja" => :build
   depends_on "nlohmann-json" => :build
   depends_on "boost"
+  depends_on "cmark"
   depends_on "eigen"
   depends_on "embree"
   depends_on "expat"

@@ -6,6 +6,7 @@
   ninja,
   boost,
   cli11,
+  cmark,
   eigen,
   embree,
   expat,
@@ -39,6 +40,7 @@ stdenv.mkDerivation (finalAttrs: {
   buildInputs = [
     boost
     cli11
+    cmark
     eigen
     embree
     expat

@@ -36,6 +36,7 @@ class Espalier(CMakePackage):
     depends_on("tomlplusplus")
     with when("+look"):
         depends_on("boost@1.74:")
+        depends_on("cmark")
         depends_on("nlopt")
         depends_on("qhull")
         depends_on("vtk@9.1:")

@@ -24,34 +24,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Processes that stand on libraries which pages do not have, or on programs.
-bool needs_program(const std::string& process) {
-    return process == "vdb" || process == "ray-light" || process == "external";
-}
-
-void warn_of_processes(const Scene& scene) {
-    for (const auto& [name, settings] : scene.environment.processes) {
-        const std::string type = settings.text_or("process", "");
-        if (!needs_program(type)) continue;
-        fmt::print(stderr, "warning: '{}' is {}, which needs the program: the page will say so instead of growing\n",
-                   name, type);
-    }
-}
-
 /// What a model or a scene reads until its first step.
 studio::LiveGrowth growth_of(const fs::path& opened) {
     studio::LiveGrowth growth;
     growth.opened = fs::absolute(opened).lexically_normal();
     const ReadLog log;
     const Scene scene = read_opened({growth.opened, {}, {}});
-    warn_of_processes(scene);
-    World(scene).start();
-    for (auto& [path, file] : log.files()) {
-        if (!file.kept) {
-            throw UserError(fmt::format("{}: a page has no room for more than 16 MB of files", path.string()));
-        }
-        growth.files[path] = std::move(file.bytes);
+    for (const auto& [name, type] : processes_without_a_page(scene)) {
+        fmt::print(stderr, "warning: '{}' is {}, which needs the program: the page will say so instead of growing\n",
+                   name, type);
     }
+    World(scene).start();
+    growth.files = studio::kept_bytes(log.files());
     return growth;
 }
 

@@ -107,6 +107,15 @@ void require_no_programs(const Scene& scene) {
     }
 }
 
+std::vector<std::pair<std::string, std::string>> processes_without_a_page(const Scene& scene) {
+    std::vector<std::pair<std::string, std::string>> found;
+    for (const auto& [name, settings] : scene.environment.processes) {
+        std::string type = settings.text_or("process", "");
+        if (type == "vdb" || type == "ray-light" || type == "external") found.emplace_back(name, std::move(type));
+    }
+    return found;
+}
+
 StudioLibrary::StudioLibrary(fs::path folder) : folder_(std::move(folder)), models_(model_library({})) {}
 
 std::vector<studio::LibraryEntry> StudioLibrary::entries() const {

@@ -49,15 +49,30 @@ void replace(std::string& page, std::string_view was, const std::string& is) {
 
 }  // namespace
 
+std::map<fs::path, std::string> kept_bytes(const std::map<fs::path, ReadLog::File>& files) {
+    std::map<fs::path, std::string> bytes;
+    for (const auto& [path, file] : files) {
+        if (!file.kept)
+            throw UserError(fmt::format("{}: a page has no room for more than 16 MB of files", path.string()));
+        bytes[path] = file.bytes;
+    }
+    return bytes;
+}
+
 std::string live_page(const LiveGrowth& growth) {
     const fs::path folder = common_folder(growth.files);
     const std::string opened = "/library/" + growth.opened.lexically_relative(folder).generic_string();
     const std::string seed = growth.seed ? fmt::format(" data-seed=\"{}\"", *growth.seed) : "";
+    const std::string steps = growth.steps ? fmt::format(" data-steps=\"{}\"", *growth.steps) : "";
+    const std::string lesson = growth.lesson.empty()
+                                   ? ""
+                                   : fmt::format("<script type=\"application/json\" id=\"lesson\">{}</script>\n",
+                                                 in_script(growth.lesson, "\\u003c"));
     std::string page(live_page_file());
-    replace(page, "<html ", fmt::format("<html data-open=\"{}\"{} ", in_html(opened), seed));
+    replace(page, "<html ", fmt::format("<html data-open=\"{}\"{}{} ", in_html(opened), seed, steps));
     replace(page, "<title>Espalier studio</title>", fmt::format("<title>{}</title>", in_html(growth.title)));
     replace(page, "<body>\n",
-            fmt::format("<body>\n<script type=\"application/base64\" id=\"part-library.pack\">{}</script>\n",
+            fmt::format("<body>\n{}<script type=\"application/base64\" id=\"part-library.pack\">{}</script>\n", lesson,
                         base64(gzipped(pack_of(growth.files, folder)))));
     return page;
 }

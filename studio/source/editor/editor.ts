@@ -84,6 +84,8 @@ export class Editor {
   constructor(
     private readonly studio: Studio,
     private readonly changes: Changes,
+    /** The texts are there to be read. */
+    private readonly isLocked = false,
   ) {
     const { place } = this;
     this.view = new EditorView({ parent: place, state: EditorState.create({}) });
@@ -92,7 +94,7 @@ export class Editor {
       () => newFileEntries(studio, this.fileHolder),
     );
     const disputes = new Disputes(studio, () => this.settle()).element;
-    this.element = h("div", "editor", {}, h("div", "tab-row", {}, this.tabs, add), disputes, this.sideTools, place);
+    this.element = h("div", "editor", {}, h("div", "tab-row", {}, this.tabs, !isLocked && add), disputes, !isLocked && this.sideTools, place);
     this.view.contentDOM.addEventListener("blur", () => this.sendLasting());
     studio.on("document", (document) => this.hear(document));
     changes.onIdle(() => this.side?.reread?.());
@@ -426,6 +428,7 @@ export class Editor {
         ...completionKeymap,
         indentWithTab,
       ]),
+      EditorState.readOnly.of(this.isLocked),
       EditorView.lineWrapping,
       EditorView.contentAttributes.of({ "aria-label": "Text of the model", tabindex: "0" }),
       EditorView.updateListener.of((update) => {

@@ -8,6 +8,7 @@ export interface Begin {
   /** A path to open; "": none. */
   open: string;
   seed?: number;
+  steps?: number;
   /** The address named it. */
   named?: boolean;
   /** MiB that a growth may take. */

@@ -11,12 +11,13 @@ const urgent = new Set(["stop", "change", "graph", "points", "view-value", "undo
 const patience = 900; // ms
 
 const firstTree = "/library/environments/tree.toml";
-/** A page of one growth says its file, and its seed. */
+/** A page of one growth says its file, its seed and its steps. */
 function howToBegin(isFirst: boolean): Begin {
-  const { open, seed } = document.documentElement.dataset;
+  const { open, seed, steps } = document.documentElement.dataset;
   if (!open) return { open: firstTree, seed: Math.floor(Math.random() * 1000) };
   const begin: Begin = { open, named: isFirst }; // those that follow begin with what is kept
   if (seed) begin.seed = Number(seed);
+  if (steps) begin.steps = Number(steps);
   return begin;
 }
 
