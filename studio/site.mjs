@@ -1,16 +1,18 @@
-// Puts together the studio that needs no server: node site.mjs MODULE_FOLDER OUT LIVE
+// Puts together the studio that needs no server: node site.mjs MODULE_FOLDER OUT LIVE PROGRAM
 //
 // OUT/index.html works from any web server below any path; OUT/espalier.html is the same in one file, which works from a disk;
-// LIVE is that without a library, for `espalier share --live`, which puts one growth into it. MODULE_FOLDER has espalier.js and espalier.wasm, made by `cmake --build --preset web`.
+// OUT/lessons.html lists the lessons, a page for each, which PROGRAM has read;
+// LIVE is the one file without a library, for `espalier share --live`, which puts one growth into it. MODULE_FOLDER has
+// espalier.js and espalier.wasm, made by `cmake --build --preset web`.
 import { execFileSync } from "node:child_process";
 import { copyFileSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
-import { dirname, join, relative } from "node:path";
+import { basename, dirname, join, relative } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
 
 const studio = dirname(fileURLToPath(import.meta.url));
 const repository = dirname(studio);
-const [moduleFolder, out, live] = process.argv.slice(2);
+const [moduleFolder, out, live, program] = process.argv.slice(2);
 const limit = 3_000_000; // bytes of the page in all, as it is sent
 
 function* filesBelow(folder) {
@@ -39,15 +41,30 @@ function policy(scripts) {
   );
 }
 
-function pageWith(head, body = "") {
+function pageWith(head, body = "", data = {}) {
+  const said = Object.entries(data).map(([name, value]) => `data-${name}="${value}" `);
   return readFileSync(join(studio, "dist/index.html"), "utf8")
-    .replace("<html ", '<html data-parts="" ')
+    .replace("<html ", `<html data-parts="" ${said.join("")}`)
     .replace('<meta charset="utf-8">', `<meta charset="utf-8">\n${head}`)
     .replace("<body>\n", () => `<body>\n${body}`);
 }
 
 function inScript(text) {
   return text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
+}
+
+/** A page for each text in lessons/, and one that lists them. */
+function lessons(head) {
+  const folder = join(repository, "lessons");
+  const pages = [...filesBelow(folder)].filter((file) => file.endsWith(".md")).map((file) => {
+    const { title, open, seed, steps, lesson } = JSON.parse(execFileSync(program, ["lesson", file, "--data"], { encoding: "utf8" }));
+    const element = `<script type="application/json" id="lesson">${JSON.stringify(lesson).replaceAll("<", "\\u003c")}</script>\n`;
+    const data = { open: `/library/${relative(repository, open)}`, ...(seed === undefined ? {} : { seed }), ...(steps ? { steps } : {}) };
+    return { name: basename(file).replace(/[.]md$/, ".html"), title, page: pageWith(head, element, data) };
+  });
+  const entries = pages.map(({ name, title }) => `<li><a href="${name}">${title}</a></li>`);
+  const list = readFileSync(join(studio, "lessons.html"), "utf8").replace("<ol></ol>", `<ol>\n${entries.join("\n")}\n</ol>`);
+  return { "lessons.html": list, ...Object.fromEntries(pages.map(({ name, page }) => [name, page])) };
 }
 
 /** Of the page's packages, and of what the module has in it: texts of Debian. */
@@ -97,15 +114,16 @@ rmSync(out, { recursive: true, force: true });
 mkdirSync(out, { recursive: true });
 const module = packedByXz(readFileSync(join(moduleFolder, "espalier.wasm")));
 const worker = Buffer.concat([readFileSync(join(moduleFolder, "espalier.js")), readFileSync(join(studio, "dist/worker.js"))]);
+const head = `<meta http-equiv="Content-Security-Policy" content="${policy("'self'")}">`;
 const files = {
-  "index.html": pageWith(`<meta http-equiv="Content-Security-Policy" content="${policy("'self'")}">`),
+  "index.html": pageWith(head, "", { lessons: "lessons.html" }),
   "espalier.wasm.xz": module,
   "library.pack": gzipSync(packOfLibrary(true), { level: 9 }),
   "worker.js": worker,
 };
 files["LICENSES.txt"] = licences();
 for (const name of ["studio.js", "studio.css", "icon.svg"]) files[name] = readFileSync(join(studio, "dist", name));
-for (const [name, bytes] of Object.entries(files)) writeFileSync(join(out, name), bytes);
+for (const [name, bytes] of Object.entries({ ...files, ...lessons(head) })) writeFileSync(join(out, name), bytes);
 for (const path of filesBelow(gallery)) {
   const place = join(out, relative(repository, path));
   mkdirSync(dirname(place), { recursive: true });

@@ -42,7 +42,7 @@ export class Gallery {
           "",
           {},
           h("h1", "", {}, "What shall grow?"),
-          h("p", "", {}, "Open a model or a scene: it grows at once, and you can change everything in it."),
+          h("p", "", {}, "Open a model or a scene: it grows at once, and you can change everything in it. ", lessonsLink()),
         ),
         this.close,
       ),
@@ -172,4 +172,10 @@ export class Gallery {
     const opened = await this.studio.ask("open", { path: entry.path });
     if (opened) this.leave();
   }
+}
+
+/** A site says where its lessons are. */
+function lessonsLink(): HTMLElement | null {
+  const { lessons } = document.documentElement.dataset;
+  return lessons ? h("a", "", { href: lessons }, "Lessons of two minutes") : null;
 }

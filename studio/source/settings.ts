@@ -90,7 +90,9 @@ export class SettingsPanel {
 
   private choose({ settings }: StudioDocument): Setting[] {
     if (this.chosen === null) return settings;
-    return this.chosen.flatMap((name) => settings.filter((setting) => setting.name === name)).map((setting) => ({ ...setting, group: "" }));
+    const known = this.chosen.flatMap((name) => settings.filter((setting) => setting.name === name));
+    const groups = new Set(known.map(({ group }) => group)).size;
+    return known.map((setting) => ({ ...setting, group: "", label: groups > 1 ? `${setting.label}: ${setting.group}` : setting.label }));
   }
 
   private show(document: StudioDocument): void {

@@ -45,6 +45,14 @@ async function openSite(where) {
 
 const text = (which = page) => which.locator(".cm-content").textContent();
 
+/** Rules of axe that are broken gravely. */
+function violations(which) {
+  return which.evaluate(
+    `${axe}; axe.run(document, { resultTypes: ["violations"] }).then(({ violations }) =>
+      violations.filter(({ impact }) => impact === "critical" || impact === "serious").map(({ id }) => id))`,
+  );
+}
+
 async function openFromGallery(words, which = page) {
   await which.getByRole("button", { name: "Gallery", exact: true }).click();
   await which.fill(".gallery .search", words);
@@ -178,14 +186,54 @@ test("a change is heard in the midst of a step that takes too long", async () =>
 });
 
 test("axe finds nothing critical or serious, and no script comes from a text", async () => {
-  const findings = await page.evaluate(
-    `${axe}; axe.run(document, { resultTypes: ["violations"] }).then(({ violations }) =>
-      violations.filter(({ impact }) => impact === "critical" || impact === "serious").map(({ id }) => id))`,
-  );
-  assert.deepEqual(findings, []);
+  assert.deepEqual(await violations(page), []);
   const policy = await page.locator("meta[http-equiv=Content-Security-Policy]").getAttribute("content");
   assert.match(policy, /script-src 'self' 'wasm-unsafe-eval';/);
   assert.match(policy, /default-src 'none'/);
+});
+
+test("a file of the library has an address", async () => {
+  const named = await openSite(`${address}#open=models/course/04-signals.l`);
+  await told(named);
+  await grown(named);
+  await named.waitForFunction(() => document.querySelector(".document-name").textContent.startsWith("04-signals"));
+});
+
+test("the gallery leads to the lessons, and a lesson to the next", async () => {
+  await page.getByRole("button", { name: "Gallery", exact: true }).click();
+  await page.getByRole("link", { name: "Lessons of two minutes" }).click();
+  await page.getByRole("link", { name: "A signal climbs the stem" }).click();
+  await told(page);
+  await grown(page);
+  assert.equal(await page.locator(".lesson h2").first().textContent(), "A signal climbs the stem");
+  await page.getByRole("link", { name: "Next lesson" }).click();
+  await page.getByRole("heading", { name: "Chance that can be repeated" }).first().waitFor();
+  await told(page);
+});
+
+test("a goal is reached by the slider that its author chose, on a phone", async () => {
+  const phone = await openPage(browser, `${address}04-signals.html`, { viewport: { width: 390, height: 800 } });
+  await told(phone);
+  await grown(phone);
+  await phone.waitForFunction(() => document.querySelector(".goals small").textContent.startsWith("height is 2.37"));
+  assert.equal(await phone.locator(".lesson").getAttribute("data-goals"), "0");
+  const delay = phone.locator(".lesson input.number");
+  await delay.fill("14");
+  await delay.press("Enter");
+  await phone.waitForFunction(() => document.querySelector(".lesson").dataset.goals === "1");
+  assert.equal(await phone.locator(".lesson section .verdict").textContent(), "All goals are reached.");
+  await phone.getByLabel("the signal catches up with it").check();
+  assert.match(await phone.locator(".question .verdict").textContent(), /^Right\. /);
+  await rests(phone);
+  await shot(phone, "site-lesson");
+  await phone.getByRole("button", { name: "Start again" }).click();
+  await phone.waitForFunction(() => document.querySelector(".lesson").dataset.goals === "0");
+  await phone.getByRole("tab", { name: "Texts" }).click();
+  await phone.locator(".cm-line").first().click();
+  await phone.keyboard.type("nothing");
+  assert.doesNotMatch(await text(phone), /nothing/);
+  assert.deepEqual(await violations(phone), []);
+  assert.deepEqual(phone.problems, []);
 });
 
 test("one file works from a disk", async () => {

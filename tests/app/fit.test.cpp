@@ -95,7 +95,7 @@ TEST_CASE("fit by simulation tells ranges, goes on where it stopped, and is divi
     REQUIRE(commands.code == 0);
     CHECK_THAT(commands.out, Contains("--part 1/2 --method abc") && Contains("--part 2/2 --method abc"));
     REQUIRE(place.run(fit + " --method abc --output parts --part 2/2").code == 0);
-    CHECK_FALSE(fs::exists(place.path() / "parts/posterior.csv"));
+    CHECK_FALSE(std::filesystem::exists(place.path() / "parts/posterior.csv"));
     const Outcome rest = place.run(fit + " --method abc --output parts --json");
     INFO(rest.err);
     REQUIRE(rest.code == 0);

@@ -88,7 +88,7 @@ private:
 // What a clone has, and build/release as ./dev leaves it.
 fs::path fresh_clone(const TemporaryFolder& folder) {
     const fs::path clone = folder.path() / "clone";
-    for (const char* part : {"models", "environments", "docs", "output/README.md"}) {
+    for (const char* part : {"models", "environments", "lessons", "docs", "output/README.md"}) {
         fs::create_directories((clone / part).parent_path());
         fs::copy(root / part, clone / part, fs::copy_options::recursive);
     }

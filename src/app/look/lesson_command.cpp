@@ -77,8 +77,8 @@ public:
 The lesson is grown as it begins and with its answer: sliders and columns must exist, the answer must reach every goal, and not
 all may be reached before.
 Examples:
-  espalier lesson docs/lessons/01-angle.md
-  espalier lesson docs/lessons/01-angle.md --output angle.html)");
+  espalier lesson lessons/03-parameters.md
+  espalier lesson lessons/03-parameters.md --output honda.html)");
     }
 
     int run() override {
