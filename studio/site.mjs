@@ -9,6 +9,7 @@ import { copyFileSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, w
 import { basename, dirname, join, relative } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
+import { licencesOfModule } from "./licences.mjs";
 
 const studio = dirname(fileURLToPath(import.meta.url));
 const repository = dirname(studio);
@@ -67,13 +68,9 @@ function lessons(head) {
   return { "lessons.html": list, ...Object.fromEntries(pages.map(({ name, page }) => [name, page])) };
 }
 
-/** Of the page's packages, and of what the module has in it: texts of Debian. */
 function licences() {
-  const inModule = ["emscripten", "libfmt-dev", "libtomlplusplus-dev", "libglm-dev", "libeigen3-dev", "nlohmann-json3-dev"].map(
-    (name) => `${"-".repeat(80)}\n${name}\n\n${readFileSync(`/usr/share/doc/${name}/copyright`, "utf8")}`,
-  );
   const page = readFileSync(join(studio, "dist/LICENSES.txt"), "utf8");
-  return `${page}\nThe module that grows plants contains parts of these packages.\n${inModule.join("\n")}`;
+  return `${page}\nThe module that grows plants contains parts of these packages.\n${licencesOfModule()}`;
 }
 
 /** Letters that need no escape in a page; source/web/packed.ts reads them. */
