@@ -2,7 +2,7 @@
 //
 // OUT/index.html works from any web server below any path; OUT/espalier.html is the same in one file, which works from a disk;
 // OUT/lessons.html lists the lessons, a page for each, which PROGRAM has read;
-// LIVE is the one file without a library, for `espalier share --live`, which puts one growth into it. MODULE_FOLDER has
+// LIVE is the one file with two trees instead of a library; `espalier share --live` puts another growth there. MODULE_FOLDER has
 // espalier.js and espalier.wasm, made by `cmake --build --preset web`.
 import { execFileSync } from "node:child_process";
 import { copyFileSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
@@ -25,15 +25,16 @@ function* filesBelow(folder) {
 }
 
 const gallery = join(repository, "docs/pictures/gallery");
-const packedFolders = ["models", "environments"].map((name) => join(repository, name));
-
-/** A line of JSON with names and sizes, then the files. Pictures of the gallery are named alone: they lie beside the page. */
-function packOfLibrary(withPictures) {
-  const files = [...packedFolders.flatMap((folder) => [...filesBelow(folder)]), join(repository, "docs/gallery.md")];
+/** A line of JSON with names and sizes, then the files; of files that lie beside the page the names alone. */
+function packOf(files, beside = []) {
   const names = files.map((path) => [relative(repository, path), statSync(path).size]);
-  const pictures = withPictures ? [...filesBelow(gallery)].map((path) => [relative(repository, path), 0]) : [];
+  const pictures = beside.map((path) => [relative(repository, path), 0]);
   return Buffer.concat([Buffer.from(`${JSON.stringify([...names, ...pictures])}\n`), ...files.map((path) => readFileSync(path))]);
 }
+
+const libraryFiles = ["models", "environments"].flatMap((name) => [...filesBelow(join(repository, name))]);
+libraryFiles.push(join(repository, "docs/gallery.md"));
+const firstGrowth = ["environments/two-trees.toml", "models/light/competing-tree.l", "models/plants.map"];
 
 function policy(scripts) {
   return (
@@ -94,13 +95,13 @@ function packedByXz(bytes) {
 }
 
 /** One file: scripts, styles and parts are elements of it. */
-function singleFile(parts) {
+function singleFile(parts, data = {}) {
   const text = (name) => readFileSync(join(studio, "dist", name), "utf8");
   const elements = Object.entries({ ...parts, "studio.js": packedByXz(text("studio.js")) }).map(
     ([name, bytes]) => `<script type="application/base85" id="part-${name}">${to85(bytes)}</script>\n`,
   );
   const icon = `data:image/svg+xml;base64,${Buffer.from(text("icon.svg")).toString("base64")}`;
-  return pageWith(`<meta http-equiv="Content-Security-Policy" content="${policy("'unsafe-inline'")}">`, elements.join(""))
+  return pageWith(`<meta http-equiv="Content-Security-Policy" content="${policy("'unsafe-inline'")}">`, elements.join(""), data)
     .replace("icon.svg", icon)
     .replace('<link rel="stylesheet" href="studio.css">', () => `<style data-file="studio.css">${text("studio.css")}</style>`)
     .replace('<script src="studio.js" defer></script>\n', "")
@@ -115,7 +116,7 @@ const head = `<meta http-equiv="Content-Security-Policy" content="${policy("'sel
 const files = {
   "index.html": pageWith(head, "", { lessons: "lessons.html" }),
   "espalier.wasm.xz": module,
-  "library.pack": gzipSync(packOfLibrary(true), { level: 9 }),
+  "library.pack": gzipSync(packOf(libraryFiles, [...filesBelow(gallery)]), { level: 9 }),
   "worker.js": worker,
 };
 files["LICENSES.txt"] = licences();
@@ -131,8 +132,9 @@ const inside = {
   "worker.js": gzipSync(worker, { level: 9 }),
   "LICENSES.txt": packedByXz(licences()),
 };
-writeFileSync(join(out, "espalier.html"), singleFile({ ...inside, "library.pack": gzipSync(packOfLibrary(false), { level: 9 }) }));
-writeFileSync(live, singleFile(inside));
+writeFileSync(join(out, "espalier.html"), singleFile({ ...inside, "library.pack": gzipSync(packOf(libraryFiles), { level: 9 }) }));
+const ownGrowth = { ...inside, "library.pack": gzipSync(packOf(firstGrowth.map((name) => join(repository, name))), { level: 9 }) };
+writeFileSync(live, singleFile(ownGrowth, { open: `/library/${firstGrowth[0]}` }));
 
 let total = 0;
 for (const [name, bytes] of Object.entries(files)) {

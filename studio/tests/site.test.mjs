@@ -236,6 +236,16 @@ test("a goal is reached by the slider that its author chose, on a phone", async 
   assert.deepEqual(phone.problems, []);
 });
 
+test("two trees grow in the file that a clone holds", async () => {
+  const held = await openSite(new URL("../dist/live.html", import.meta.url).href);
+  await told(held);
+  await grown(held);
+  await rests(held);
+  await shot(held, "site-live");
+  assert.match(await held.locator(".document-name").textContent(), /^two-trees/);
+  assert.deepEqual(held.problems, []);
+});
+
 test("one file works from a disk", async () => {
   const alone = await openSite(pathToFileURL(join(folder, "espalier.html")).href);
   await told(alone);

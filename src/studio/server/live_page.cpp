@@ -41,10 +41,12 @@ std::string pack_of(const std::map<fs::path, std::string>& files, const fs::path
     return names.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n" + all;
 }
 
-void replace(std::string& page, std::string_view was, const std::string& is) {
-    const std::size_t at = page.find(was);
-    if (at == page.npos) throw RunError(fmt::format("the page that grows has no '{}': build it anew", was));
-    page.replace(at, was.size(), is);
+/// Puts `is` where the page has a text that begins and ends so.
+void replace(std::string& page, std::string_view begin, std::string_view end, const std::string& is) {
+    const std::size_t at = page.find(begin);
+    const std::size_t to = at == page.npos ? page.npos : page.find(end, at + begin.size());
+    if (to == page.npos) throw RunError(fmt::format("the page that grows has no '{}': build it anew", begin));
+    page.replace(at, to + end.size() - at, is);
 }
 
 }  // namespace
@@ -69,10 +71,11 @@ std::string live_page(const LiveGrowth& growth) {
                                    : fmt::format("<script type=\"application/json\" id=\"lesson\">{}</script>\n",
                                                  in_script(growth.lesson, "\\u003c"));
     std::string page(live_page_file());
-    replace(page, "<html ", fmt::format("<html data-open=\"{}\"{}{} ", in_html(opened), seed, steps));
-    replace(page, "<title>Espalier studio</title>", fmt::format("<title>{}</title>", in_html(growth.title)));
-    replace(page, "<body>\n",
-            fmt::format("<body>\n{}<script type=\"application/base64\" id=\"part-library.pack\">{}</script>\n", lesson,
+    replace(page, "data-open=", " ", fmt::format("data-open=\"{}\"{}{} ", in_html(opened), seed, steps));
+    replace(page, "<title>", "</title>", fmt::format("<title>{}</title>", in_html(growth.title)));
+    constexpr std::string_view pack = "<script type=\"application/base85\" id=\"part-library.pack\">";
+    replace(page, pack, "</script>\n",
+            fmt::format("{}<script type=\"application/base64\" id=\"part-library.pack\">{}</script>\n", lesson,
                         base64(gzipped(pack_of(growth.files, folder)))));
     return page;
 }
