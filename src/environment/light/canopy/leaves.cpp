@@ -57,7 +57,7 @@ void CanopyLeaves::add(const Owner& owner, const glm::dvec3& middle, const glm::
 
 void CanopyLeaves::add(std::uint32_t plant, std::uint32_t module, const glm::dvec3& place, double area) {
     if (!(area > 0)) return;
-    const LeafArea leaf{{static_cast<float>(area), 0, 0}, true};
+    const OrientedArea leaf{{static_cast<float>(area), 0, 0}, true};
     add({plant, module, place, leaf, leaf_material, LitKind::leaf});
 }
 

@@ -21,7 +21,7 @@
 
 namespace espalier::environment {
 
-struct LeafArea {
+struct OrientedArea {
     glm::vec3 area;   ///< m2, along the normal of the front; (area, 0, 0) if it is undirected
     bool undirected;  ///< inclined as a distribution says, its front upwards
 };
@@ -31,7 +31,7 @@ struct LeafArea {
 struct LeafPiece {
     std::uint32_t plant, module;
     glm::dvec3 middle;
-    LeafArea leaf;
+    OrientedArea leaf;
     std::uint16_t material;
     LitKind kind;
     std::size_t voxel = 0;  ///< once sorted
@@ -118,7 +118,7 @@ public:
         double front, back;  ///< m2 across the direction; of a directed piece one of them is 0
         double both() const { return front + back; }
     };
-    Sides operator()(const LeafArea& leaf) const {
+    Sides operator()(const OrientedArea& leaf) const {
         if (leaf.undirected) return {leaf.area.x * above_, leaf.area.x * below_};
         const double seen = clumping_ * glm::dot(glm::dvec3(leaf.area), towards_);
         return {std::max(seen, 0.0), std::max(-seen, 0.0)};

@@ -105,13 +105,13 @@ private:
     const LeafAngles& angles_;
     std::span<const char> is_solid_;
     Options options_;
-    std::vector<LeafArea> leaves_;     ///< by piece
-    FilledVoxels filled_;              ///< by leaves, stems or solids
-    std::vector<std::size_t> places_;  ///< by voxel that has pieces: its place among the filled ones
-    std::vector<std::size_t> solids_;  ///< places of those that are solid
-    std::vector<SkyPart> ordinates_;   ///< of the upper half; each has an opposite one
-    std::vector<LeavesSeen> seen_;     ///< by ordinate
-    std::vector<double> whole_;        ///< by piece: a side as all ordinates see it, m2 sr
+    std::vector<OrientedArea> leaves_;  ///< by piece
+    FilledVoxels filled_;               ///< by leaves, stems or solids
+    std::vector<std::size_t> places_;   ///< by voxel that has pieces: its place among the filled ones
+    std::vector<std::size_t> solids_;   ///< places of those that are solid
+    std::vector<SkyPart> ordinates_;    ///< of the upper half; each has an opposite one
+    std::vector<LeavesSeen> seen_;      ///< by ordinate
+    std::vector<double> whole_;         ///< by piece: a side as all ordinates see it, m2 sr
 };
 
 }  // namespace espalier::environment
