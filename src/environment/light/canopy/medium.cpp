@@ -59,6 +59,21 @@ int wrapped(int i, int size) {
     return beyond < 0 ? beyond + size : beyond;
 }
 
+/// The filled voxels, with what takes a division. Sums that choose between two formulas by a factor of 0 or 1 become
+/// vectors, which branches do not.
+struct Thickness {
+    std::vector<double> inverse;  ///< of the depth; 0 of a thin voxel
+    std::vector<double> thin;     ///< 1 if what an edge of it takes away follows from the first terms of a series, or 0
+
+    Thickness(std::span<const double> depth, double edge) : inverse(depth.size(), 0), thin(depth.size(), 0) {
+        for (std::size_t i = 0; i < depth.size(); ++i) {
+            const bool is_thin = depth[i] * edge < 1e-3;
+            inverse[i] = is_thin ? 0 : 1 / depth[i];
+            thin[i] = is_thin ? 1 : 0;
+        }
+    }
+};
+
 /// What beams do in voxels of a line on stretches of one length. Sums of light that is added, and its share that is met
 /// in the voxel itself, follow from integrals of exp(-k s), s from 0 to 1.
 class Attenuation {
@@ -70,26 +85,26 @@ public:
     std::array<double, most> more;   ///< flux that is added
     std::array<double, most> extra;  ///< the mean of what of it is met
 
-    /// `inverse` are of the depths, 0 of none.
-    void find(std::size_t count, const double* depth, const double* inverse, double length) {
+    void find(std::size_t count, const double* depth, const double* inverse, const double* thin, double length) {
         const std::size_t padded = (count + lanes - 1) / lanes * lanes;
-        for (std::size_t i = 0; i < count; ++i) k[i] = depth[i] * length;
-        for (std::size_t i = 0; i < count; ++i) mean[i] = -k[i];
+        for (std::size_t i = 0; i < count; ++i) {
+            k[i] = depth[i] * length;
+            mean[i] = -k[i];
+        }
         std::fill(mean.begin() + std::ptrdiff_t(count), mean.begin() + std::ptrdiff_t(padded), 0.0);
         math::exp({mean.data(), padded}, mean.data());
         const double per_length = 1 / length;
         for (std::size_t i = 0; i < count; ++i) {
-            const double of_thin = 1 - k[i] / 2, of_others = (1 - mean[i]) * (inverse[i] * per_length);
-            mean[i] = k[i] < 1e-5 ? of_thin : of_others;
+            const double of_thin = 1 - k[i] * (0.5 - k[i] * (1.0 / 6 - k[i] * (1.0 / 24)));
+            mean[i] = thin[i] * of_thin + (1 - mean[i]) * (inverse[i] * per_length);
         }
     }
-    void find_more(std::size_t count, const double* added, const double* inverse, double length) {
+    void find_more(std::size_t count, const double* added, const double* inverse, const double* thin, double length) {
         const double per_length = 1 / length;
-        for (std::size_t i = 0; i < count; ++i) more[i] = added[i] * length;
         for (std::size_t i = 0; i < count; ++i) {
-            const double of_thin = 0.5 - k[i] * (1.0 / 6) + k[i] * k[i] * (1.0 / 24);
-            const double of_others = (1 - mean[i]) * (inverse[i] * per_length);
-            extra[i] = more[i] * (k[i] < 1e-3 ? of_thin : of_others);
+            const double of_thin = 0.5 - k[i] * (1.0 / 6 - k[i] * (1.0 / 24 - k[i] * (1.0 / 120)));
+            more[i] = added[i] * length;
+            extra[i] = more[i] * (thin[i] * of_thin + (1 - mean[i]) * (inverse[i] * per_length));
         }
     }
     void add_none(std::size_t count) {
@@ -104,13 +119,12 @@ private:
 /// All beams of a light that begin at the same place of their voxels.
 class Beams {
 public:
-    /// `inverse` are of the light's depths, 0 of none.
     Beams(const CanopyVoxels& voxels, const ParallelLight& light, const FilledVoxels& filled,
-          std::span<const double> inverse, BeamLight& result)
+          const Thickness& thickness, BeamLight& result)
         : voxels_(voxels),
           light_(light),
           filled_(filled),
-          inverse_(inverse),
+          thickness_(thickness),
           result_(result),
           flux_(voxels.ground_count(), light.outside),
           entered_(std::size_t(voxels.size.z), 0),
@@ -174,9 +188,10 @@ private:
         Attenuation met_here;
         for (std::size_t at = filled_.first_of(line); at < end; at += Attenuation::most) {
             const std::size_t count = std::min(Attenuation::most, end - at);
-            met_here.find(count, &light_.depth[at], &inverse_[at], length);
+            const double *const inverse = &thickness_.inverse[at], *const thin = &thickness_.thin[at];
+            met_here.find(count, &light_.depth[at], inverse, thin, length);
             light_.added.empty() ? met_here.add_none(count)
-                                 : met_here.find_more(count, &light_.added[at], &inverse_[at], length);
+                                 : met_here.find_more(count, &light_.added[at], inverse, thin, length);
             for (std::size_t i = 0; i < count; ++i) {
                 const int x = filled_.x(at + i), from = x - shift;
                 double& beam = beams[from < 0 ? from + size : from];
@@ -202,7 +217,7 @@ private:
     const CanopyVoxels& voxels_;
     const ParallelLight& light_;
     const FilledVoxels& filled_;
-    std::span<const double> inverse_;
+    const Thickness& thickness_;
     BeamLight& result_;
     std::vector<double> flux_;            ///< of the beam from each square
     std::vector<double> entered_, left_;  ///< through the sides, by row
@@ -235,14 +250,12 @@ BeamLight send_beams(const CanopyVoxels& voxels, const FilledVoxels& filled, con
     BeamLight result;
     result.flux.assign(voxels.count(), 0);
     if (light.towards.y > 0) result.arrived.assign(voxels.ground_count(), 0);
-    std::vector<double> inverse(light.depth.size());
-    std::transform(light.depth.begin(), light.depth.end(), inverse.begin(),
-                   [](double depth) { return depth > 0 ? 1 / depth : 0; });
+    const Thickness thickness(light.depth, voxels.edge);
     const double spacing = 1.0 / beams, across = spacing * spacing * std::abs(light.towards.y);
     for (int i = 0; i < beams; ++i) {
         for (int j = 0; j < beams; ++j) {
             const auto way = way_through(voxels, -light.towards, (i + 0.5) * spacing, (j + 0.5) * spacing);
-            Beams(voxels, light, filled, inverse, result).follow(way, across);
+            Beams(voxels, light, filled, thickness, result).follow(way, across);
         }
     }
     const double square = voxels.edge * voxels.edge;
