@@ -168,24 +168,6 @@ void stochastic_bush(benchmark::State& state) {
 }
 BENCHMARK(stochastic_bush)->Arg(1)->UseRealTime();
 
-/// A bush whose apices have conditions, random numbers and powers: what most parametric models are made of. Variables
-/// that its blocks assign are each module's own.
-void make_bush(ModelBuilder& model, bool blocks) {
-    model.system().axiom = {model.module("A", {number(1)})};
-    const Expression s = formal(0), width = apply(Operator::power, {s, number(0.7)});
-    const Expression angle = number(30) + call(Function::ran, {number(10)});
-    const std::uint32_t w = blocks ? model.add_global("w") : 0, a = blocks ? model.add_global("a") : 0;
-    Production& grows = model.rule(
-        {{"A", 1}}, {model.module("!", {blocks ? global(w) : width}), model.module("F", {s}), model.module("[", {}),
-                     model.module("+", {blocks ? global(a) : angle}),
-                     model.module("A", {s * (number(0.6) + call(Function::ran, {number(0.2)}))}), model.module("]", {}),
-                     model.module("/", {number(137.5)}), model.module("A", {s * number(0.9)})});
-    grows.condition = number(0.002) < s;
-    if (blocks) grows.after = {assign(global(w), width), assign(global(a), angle)};
-    model.rule({{"A", 1}}, {model.module("L", {s})});
-    model.rule({{"F", 1}}, {model.module("F", {s * number(1.05)})}).condition = s < number(100);
-}
-
 void parametric_bush(benchmark::State& state) {
     ModelBuilder model;
     make_bush(model, false);

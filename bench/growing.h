@@ -32,6 +32,10 @@ void make_bare_plant(test::ModelBuilder& model);
 /// Honda's monopodial tree (ABOP figure 2.6): A(l, w), B(l, w), C(l, w).
 void make_honda(test::ModelBuilder& model);
 
+/// A bush whose apices have conditions, random numbers and powers: what most parametric models are made of. Variables
+/// that its blocks assign are each module's own.
+void make_bush(test::ModelBuilder& model, bool blocks);
+
 inline tbb::global_control threads(const benchmark::State& state) {
     return {tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(state.range(0))};
 }

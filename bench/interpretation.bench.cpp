@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-constexpr int steps = 16, bare_steps = 8;
+constexpr int steps = 16, bare_steps = 8, bush_steps = 13;
 
 /// A plant after so many steps.
 struct Grown {
@@ -76,6 +76,30 @@ void bare_interpretation(benchmark::State& state) {
     interpret_again(state, plant);
 }
 BENCHMARK(bare_interpretation)->Arg(1)->UseRealTime();
+
+/// A bush of which each branch has an angle of its own.
+struct Bush : Grown {
+    Bush() : Grown([](ModelBuilder& model) { make_bush(model, false); }, bush_steps) {}
+};
+
+void interpretation_of_angles(benchmark::State& state) {
+    Bush bush;
+    interpret_again(state, bush);
+}
+BENCHMARK(interpretation_of_angles)->Arg(1)->UseRealTime();
+
+/// The same with one angle for all.
+void interpretation_of_one_angle(benchmark::State& state) {
+    Bush bush;
+    const Alphabet& alphabet = bush.model.model().alphabet;
+    double* values = bush.string.parameters.data();
+    for (const LetterId letter : bush.string.letters) {
+        if (alphabet.name(letter) == "+") *values = 30;
+        values += alphabet.arities()[letter];
+    }
+    interpret_again(state, bush);
+}
+BENCHMARK(interpretation_of_one_angle)->Arg(1)->UseRealTime();
 
 /// A turtle that knows F ! + - & / [ ] and nothing else, written by hand into the rows that an interpretation has.
 class PlainTurtle {
@@ -192,6 +216,12 @@ void bare_plain_turtle(benchmark::State& state) {
 }
 BENCHMARK(bare_plain_turtle)->UseRealTime();
 
+void plain_turtle_of_angles(benchmark::State& state) {
+    Bush bush;
+    walk_plainly(state, bush);
+}
+BENCHMARK(plain_turtle_of_angles)->UseRealTime();
+
 void bare_scan(benchmark::State& state) {
     Tree tree;
     const auto arities = tree.model.model().alphabet.arities();
@@ -255,6 +285,18 @@ const Row bare_against_plain{"interpretation of a bare D0L plant, against a turt
                              Measure::rate,
                              Goal::at_least,
                              0.8};
+const Row angles{"interpretation of a bush with an angle for each branch, against a turtle written for its symbols",
+                 "interpretation_of_angles/1/real_time",
+                 "plain_turtle_of_angles/real_time",
+                 Measure::rate,
+                 Goal::at_least,
+                 0.8};
+const Row many_angles{"interpretation of a bush with an angle for each branch, against one angle for all",
+                      "interpretation_of_angles/1/real_time",
+                      "interpretation_of_one_angle/1/real_time",
+                      Measure::time,
+                      Goal::at_most,
+                      2.0};
 const Row walk_2{"interpretation with 2 threads, against one",
                  "interpretation/2/real_time",
                  "interpretation/1/real_time",

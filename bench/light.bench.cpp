@@ -197,6 +197,38 @@ void voxels_in_light(benchmark::State& state) {
 }
 BENCHMARK(voxels_in_light)->UseRealTime();
 
+/// A generation of what 100,000 leaves scatter in 64^3 voxels, to 36 directions, and as many copies of these.
+void scattered_in_voxels(benchmark::State& state) {
+    constexpr int edge = 64, directions = 36;
+    constexpr double voxel = 3.0 / edge;
+    const Optics optics(settings("bands.par = { leaf = [0.1, 0.1], soil = 0.1 }\n"));
+    const LeafAngles angles("spherical");
+    CanopyLeaves leaves;
+    leaves.add(0, leaves_at_random(100'000, 3), voxel, optics, true);
+    const CanopyVoxels voxels{{-0.5, 0, -0.5}, {edge, edge, edge}, voxel, false};
+    leaves.sort_into(voxels);
+    const CanopyScattering light(voxels, leaves.pieces(), optics, angles, {}, {});
+    CanopyScattering::Emission emission;
+    emission.front.assign(leaves.pieces().size(), 1);
+    emission.back = emission.front;
+    emission.ground.assign(voxels.ground_count(), 1);
+    const std::vector<double> values(voxels.count(), 1);
+    std::vector<double> copy(values.size());
+    double scattered = INFINITY, copied = INFINITY;
+    for (auto _ : state) {
+        scattered = std::min(scattered, seconds_of([&] { benchmark::DoNotOptimize(light.spread(emission).entered); }));
+        copied = std::min(copied, seconds_of([&] {
+                              for (int k = 0; k < directions; ++k) {
+                                  std::copy(values.begin(), values.end(), copy.begin());
+                                  benchmark::DoNotOptimize(copy.data());
+                              }
+                          }));
+    }
+    state.counters["work"] = scattered;
+    state.counters["yardstick"] = copied;
+}
+BENCHMARK(scattered_in_voxels)->UseRealTime();
+
 /// One copy for each of four beams of each direction.
 void copied_voxels(benchmark::State& state) {
     std::vector<double> voxels(256 * 256 * 256, 1.0), copy(voxels.size());
@@ -282,6 +314,13 @@ const Row voxels{
     "voxels_in_light/real_time",
     "copied_voxels/real_time",
     Measure::time,
+    Goal::at_most,
+    40};
+const Row scattered{
+    "a generation of scattered light, 100,000 leaves in 64^3 voxels, against a copy for each of 36 directions",
+    "scattered_in_voxels/real_time",
+    "",
+    Measure::counters,
     Goal::at_most,
     40};
 const Row pictures{"paths of render --light, 100,000 triangles, against rays of a bare loop over Embree",

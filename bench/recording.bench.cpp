@@ -116,7 +116,7 @@ const Row size{"two-trees: MB per 10^6 organs and internodes of a frame",
                "",
                Row::Measure::value,
                Row::Goal::at_most,
-               250};
+               150};
 
 }  // namespace
 }  // namespace espalier::bench

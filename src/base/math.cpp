@@ -113,9 +113,10 @@ Angle<double> angle_of_many_turns(double x) {
     return negative ? Angle<double>{part, {-rest.high, -rest.low}} : Angle<double>{part, rest};
 }
 
-/// Of a finite angle that is not small.
-Angle<double> any_angle(double x) {
-    if (is_plain_angle(x)) return angle_of(x);
+/// Of a finite angle that is not small. Inline, so that the parts of most angles stay in registers.
+ESPALIER_INLINE Angle<double> any_angle(double x) {
+    if (is_plain_angle(x)) [[likely]]
+        return angle_of(x);
     Angle<double> angle = angle_of_many_turns(x);
     if (x < 0) angle = {std::uint64_t{} - angle.part, {-angle.rest.high, -angle.rest.low}};
     return angle;

@@ -277,3 +277,19 @@ TEST_CASE("zlib holds the same values in fewer bytes, and the file says so", "[t
     CHECK(read(lz4)->GetPointData()->GetArray("identity")->GetVariantValue(39999) ==
           data->GetPointData()->GetArray("identity")->GetVariantValue(39999));
 }
+
+TEST_CASE("a normal that the four corners of a leaf share takes little more than one", "[timeline]") {
+    std::mt19937 numbers(12);
+    std::normal_distribution<float> number;
+    std::vector<float> normals;
+    for (int leaf = 0; leaf < 20000; ++leaf) {
+        const std::array<float, 3> normal{number(numbers), number(numbers), number(numbers)};
+        for (int corner = 0; corner < 4; ++corner) normals.insert(normals.end(), normal.begin(), normal.end());
+    }
+    for (const Compression compression : {Compression::lz4, Compression::zlib}) {
+        Column<char> text;
+        encode(data_array<float>("Normals", normals, 3), compression, text);
+        const double of_one = 12 * 20000 * (4.0 / 3);  // in base64
+        CHECK(double(text.size()) < 1.6 * of_one);
+    }
+}

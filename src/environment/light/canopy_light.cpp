@@ -21,10 +21,10 @@
 namespace espalier::environment {
 namespace {
 
-// Fluxes of a beam and of all, depth, what is added, and what fields show.
-constexpr double bytes_per_voxel = 3 * 8 + 4 * 8 + 2 * 5;
-// Itself and its copy while they are sorted; what its two sides meet, and the sun.
-constexpr double bytes_per_piece = 2 * sizeof(LeafPiece) + 4 * 8 + 5 * 8;
+// Fluxes of two beams and of all, depths and what is added, the numbers of filled voxels, and what fields show.
+constexpr double bytes_per_voxel = 2 * 8 + 6 * 4 + 4 * 8 + 3 * 8 + 2 * 5;
+// Itself and its copy while they are sorted; what its two sides meet and send, its area, and the sun.
+constexpr double bytes_per_piece = 2 * sizeof(LeafPiece) + 6 * 8 + sizeof(OrientedArea) + 5 * 8;
 
 LeafAngles read_angles(const Settings& settings) {
     if (settings.has("leaf_ratio")) return LeafAngles(settings.number("leaf_ratio", Range::between(0.01, 100)));

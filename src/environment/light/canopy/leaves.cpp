@@ -52,12 +52,13 @@ void CanopyLeaves::add(const LeafPiece& piece) {
 }
 
 void CanopyLeaves::add(const Owner& owner, const glm::dvec3& middle, const glm::dvec3& area) {
-    add({owner.plant, owner.module, middle, glm::vec3(area), owner.material, owner.kind, false});
+    add({owner.plant, owner.module, middle, {glm::vec3(area), false}, owner.material, owner.kind});
 }
 
 void CanopyLeaves::add(std::uint32_t plant, std::uint32_t module, const glm::dvec3& place, double area) {
     if (!(area > 0)) return;
-    add({plant, module, place, glm::vec3(static_cast<float>(area), 0, 0), leaf_material, LitKind::leaf, true});
+    const OrientedArea leaf{{static_cast<float>(area), 0, 0}, true};
+    add({plant, module, place, leaf, leaf_material, LitKind::leaf});
 }
 
 void CanopyLeaves::add(std::uint32_t plant, const PlantGeometry& geometry, double longest, const Optics& optics,
@@ -165,7 +166,7 @@ std::vector<float> CanopyLeaves::densities(const CanopyVoxels& voxels) const {
 }
 
 double area_of(const LeafPiece& piece) {
-    return glm::length(glm::dvec3(piece.area));
+    return glm::length(glm::dvec3(piece.leaf.area));
 }
 
 LeavesSeen::LeavesSeen(const glm::dvec3& towards, const LeafAngles& angles, double clumping)
@@ -173,15 +174,5 @@ LeavesSeen::LeavesSeen(const glm::dvec3& towards, const LeafAngles& angles, doub
       above_(clumping * angles.seen_from_above(towards.y)),
       below_(clumping * angles.projection(std::abs(towards.y)) - above_),
       clumping_(clumping) {}
-
-LeavesSeen::Sides LeavesSeen::operator()(const LeafPiece& piece) const {
-    if (piece.undirected) return {piece.area.x * above_, piece.area.x * below_};
-    const double seen = clumping_ * glm::dot(glm::dvec3(piece.area), towards_);
-    return {std::max(seen, 0.0), std::max(-seen, 0.0)};
-}
-
-std::vector<double> LeavesSeen::depths(const CanopyVoxels& voxels, const SortedPieces& sorted) const {
-    return per_volume<double>(voxels, sorted, [&](std::size_t i) { return (*this)(sorted.pieces[i]).both(); });
-}
 
 }  // namespace espalier::environment

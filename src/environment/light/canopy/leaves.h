@@ -10,6 +10,7 @@
 #include "environment/light/optics/optics.h"
 #include "geometry/drawn/faces.h"
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <algorithm>
@@ -20,15 +21,19 @@
 
 namespace espalier::environment {
 
+struct OrientedArea {
+    glm::vec3 area;   ///< m2, along the normal of the front; (area, 0, 0) if it is undirected
+    bool undirected;  ///< inclined as a distribution says, its front upwards
+};
+
 /// A part of a leaf, stem or body that lies in one voxel. Light also meets the backs of closed things, so these are
 /// there for the half of the surface that is turned to it, and pieces have half of their area.
 struct LeafPiece {
     std::uint32_t plant, module;
     glm::dvec3 middle;
-    glm::vec3 area;  ///< m2, along the normal of the front; (area, 0, 0) if it is undirected
+    OrientedArea leaf;
     std::uint16_t material;
     LitKind kind;
-    bool undirected;        ///< inclined as a distribution says, its front upwards
     std::size_t voxel = 0;  ///< once sorted
 };
 
@@ -113,12 +118,13 @@ public:
         double front, back;  ///< m2 across the direction; of a directed piece one of them is 0
         double both() const { return front + back; }
     };
-    Sides operator()(const LeafPiece& piece) const;
+    Sides operator()(const OrientedArea& leaf) const {
+        if (leaf.undirected) return {leaf.area.x * above_, leaf.area.x * below_};
+        const double seen = clumping_ * glm::dot(glm::dvec3(leaf.area), towards_);
+        return {std::max(seen, 0.0), std::max(-seen, 0.0)};
+    }
     /// Of unit area of the distribution.
     double projection() const { return above_ + below_; }
-
-    /// Leaf area per volume of each voxel, as seen from there, 1/m.
-    std::vector<double> depths(const CanopyVoxels& voxels, const SortedPieces& sorted) const;
 
 private:
     glm::dvec3 towards_;

@@ -1,15 +1,16 @@
 #include "environment/light/canopy/medium.h"
 
-#include "espalier/base/math.h"
-
+#include "base/math_columns.h"
 #include "base/parallel.h"
 
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace espalier::environment {
 namespace {
@@ -58,55 +59,72 @@ int wrapped(int i, int size) {
     return beyond < 0 ? beyond + size : beyond;
 }
 
-/// Mean of exp(-k s) for s from 0 to 1.
-double mean_along(double k) {
-    return k < 1e-5 ? 1 - k / 2 : (1 - math::exp(-k)) / k;
-}
+/// The filled voxels, with what takes a division. Sums that choose between two formulas by a factor of 0 or 1 become
+/// vectors, which branches do not.
+struct Thickness {
+    std::vector<double> inverse;  ///< of the depth; 0 of a thin voxel
+    std::vector<double> thin;     ///< 1 if what an edge of it takes away follows from the first terms of a series, or 0
 
-/// (1 - mean_along(k)) / k.
-double mean_of_added(double k, double mean) {
-    return k < 1e-3 ? 0.5 - k / 6 + k * k / 24 : (1 - mean) / k;
-}
-
-/// The voxels of each line along x in which something is met or added.
-class FilledVoxels {
-public:
-    FilledVoxels(const CanopyVoxels& voxels, const ParallelLight& light)
-        : starts_(std::size_t(voxels.size.y) * std::size_t(voxels.size.z) + 1, 0) {
-        const auto length = std::size_t(voxels.size.x), lines = starts_.size() - 1;
-        const auto is_filled = [&](std::size_t v) {
-            return light.depth[v] != 0 || (!light.added.empty() && light.added[v] != 0);
-        };
-        for_each_if_worth(lines, voxels.count(), [&](std::size_t line) {
-            std::uint32_t count = 0;
-            for (std::size_t x = 0; x < length; ++x) count += is_filled(line * length + x) ? 1 : 0;
-            starts_[line + 1] = count;
-        });
-        std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
-        places_.resize(starts_.back());
-        for_each_if_worth(lines, voxels.count(), [&](std::size_t line) {
-            std::uint32_t next = starts_[line];
-            for (std::size_t x = 0; next < starts_[line + 1]; ++x) {
-                if (is_filled(line * length + x)) places_[next++] = static_cast<std::int32_t>(x);
-            }
-        });
+    Thickness(std::span<const double> depth, double edge) : inverse(depth.size(), 0), thin(depth.size(), 0) {
+        for (std::size_t i = 0; i < depth.size(); ++i) {
+            const bool is_thin = depth[i] * edge < 1e-3;
+            inverse[i] = is_thin ? 0 : 1 / depth[i];
+            thin[i] = is_thin ? 1 : 0;
+        }
     }
-    std::span<const std::int32_t> operator[](std::size_t line) const {
-        return std::span(places_).subspan(starts_[line], starts_[line + 1] - starts_[line]);
+};
+
+/// What beams do in voxels of a line on stretches of one length. Sums of light that is added, and its share that is met
+/// in the voxel itself, follow from integrals of exp(-k s), s from 0 to 1.
+class Attenuation {
+public:
+    static constexpr std::size_t most = 64;
+
+    std::array<double, most> k;      ///< optical depth
+    std::array<double, most> mean;   ///< of exp(-k s)
+    std::array<double, most> more;   ///< flux that is added
+    std::array<double, most> extra;  ///< the mean of what of it is met
+
+    void find(std::size_t count, const double* depth, const double* inverse, const double* thin, double length) {
+        const std::size_t padded = (count + lanes - 1) / lanes * lanes;
+        for (std::size_t i = 0; i < count; ++i) {
+            k[i] = depth[i] * length;
+            mean[i] = -k[i];
+        }
+        std::fill(mean.begin() + std::ptrdiff_t(count), mean.begin() + std::ptrdiff_t(padded), 0.0);
+        math::exp({mean.data(), padded}, mean.data());
+        const double per_length = 1 / length;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double of_thin = 1 - k[i] * (0.5 - k[i] * (1.0 / 6 - k[i] * (1.0 / 24)));
+            mean[i] = thin[i] * of_thin + (1 - mean[i]) * (inverse[i] * per_length);
+        }
+    }
+    void find_more(std::size_t count, const double* added, const double* inverse, const double* thin, double length) {
+        const double per_length = 1 / length;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double of_thin = 0.5 - k[i] * (1.0 / 6 - k[i] * (1.0 / 24 - k[i] * (1.0 / 120)));
+            more[i] = added[i] * length;
+            extra[i] = more[i] * (thin[i] * of_thin + (1 - mean[i]) * (inverse[i] * per_length));
+        }
+    }
+    void add_none(std::size_t count) {
+        std::fill_n(more.begin(), count, 0.0);
+        std::fill_n(extra.begin(), count, 0.0);
     }
 
 private:
-    std::vector<std::uint32_t> starts_;
-    std::vector<std::int32_t> places_;
+    static constexpr std::size_t lanes = 8;  // of the widest vectors; whole ones are fastest
 };
 
 /// All beams of a light that begin at the same place of their voxels.
 class Beams {
 public:
-    Beams(const CanopyVoxels& voxels, const ParallelLight& light, const FilledVoxels& filled, BeamLight& result)
+    Beams(const CanopyVoxels& voxels, const ParallelLight& light, const FilledVoxels& filled,
+          const Thickness& thickness, BeamLight& result)
         : voxels_(voxels),
           light_(light),
           filled_(filled),
+          thickness_(thickness),
           result_(result),
           flux_(voxels.ground_count(), light.outside),
           entered_(std::size_t(voxels.size.z), 0),
@@ -147,9 +165,7 @@ private:
                 replace(beams[wrapped(side - shift, size.x)], row);
             }
             const std::size_t line = std::size_t(z) * std::size_t(size.y) + std::size_t(stretch.y);
-            const int until_side = size.x - shift;
-            pass(beams, shift, until_side, stretch.along, across, line);
-            pass(beams + until_side, 0, shift, stretch.along, across, line);
+            pass(beams, shift, stretch.along, across, line);
         }
     }
 
@@ -160,22 +176,29 @@ private:
         beam = light_.outside;
     }
 
-    /// `count` beams through voxels of a line from `first` on.
-    void pass(double* beams, int first, int count, double along, double across, std::size_t line) {
-        const std::size_t voxel = line * std::size_t(voxels_.size.x);
-        double* const flux = &result_.flux[voxel] + first;
+    /// All beams of a row through the voxels of a line, the first one through voxel `shift`.
+    void pass(double* beams, int shift, double along, double across, std::size_t line) {
+        const int size = voxels_.size.x, until_side = size - shift;
+        double* const flux = &result_.flux[line * std::size_t(size)];
         const double weight = along * across, length = along * voxels_.edge;
-        for (int i = 0; i < count; ++i) flux[i] += weight * beams[i];  // as if nothing were there
-        const std::span<const std::int32_t> filled = filled_[line];
-        for (auto x = std::lower_bound(filled.begin(), filled.end(), first); x != filled.end() && *x < first + count;
-             ++x) {
-            const std::size_t v = voxel + std::size_t(*x);
-            double& beam = beams[*x - first];
-            const double k = light_.depth[v] * length;
-            const double more = light_.added.empty() ? 0 : light_.added[v] * length;
-            const double mean = mean_along(k), met = beam * mean + more * mean_of_added(k, mean);
-            flux[*x - first] += weight * (met - beam);
-            beam += more - met * k;
+        // As if nothing were there.
+        for (int i = 0; i < until_side; ++i) flux[shift + i] += weight * beams[i];
+        for (int i = 0; i < shift; ++i) flux[i] += weight * beams[until_side + i];
+        const std::size_t end = filled_.first_of(line + 1);
+        Attenuation met_here;
+        for (std::size_t at = filled_.first_of(line); at < end; at += Attenuation::most) {
+            const std::size_t count = std::min(Attenuation::most, end - at);
+            const double *const inverse = &thickness_.inverse[at], *const thin = &thickness_.thin[at];
+            met_here.find(count, &light_.depth[at], inverse, thin, length);
+            light_.added.empty() ? met_here.add_none(count)
+                                 : met_here.find_more(count, &light_.added[at], inverse, thin, length);
+            for (std::size_t i = 0; i < count; ++i) {
+                const int x = filled_.x(at + i), from = x - shift;
+                double& beam = beams[from < 0 ? from + size : from];
+                const double met = beam * met_here.mean[i] + met_here.extra[i];
+                flux[x] += weight * (met - beam);
+                beam += met_here.more[i] - met * met_here.k[i];
+            }
         }
     }
 
@@ -194,6 +217,7 @@ private:
     const CanopyVoxels& voxels_;
     const ParallelLight& light_;
     const FilledVoxels& filled_;
+    const Thickness& thickness_;
     BeamLight& result_;
     std::vector<double> flux_;            ///< of the beam from each square
     std::vector<double> entered_, left_;  ///< through the sides, by row
@@ -211,16 +235,27 @@ std::size_t CanopyVoxels::number_of(const glm::dvec3& place) const {
            std::size_t(cell.x);
 }
 
-BeamLight send_beams(const CanopyVoxels& voxels, const ParallelLight& light, int beams) {
+FilledVoxels::FilledVoxels(const CanopyVoxels& voxels, std::vector<std::size_t> numbers)
+    : numbers_(std::move(numbers)), starts_(std::size_t(voxels.size.y) * std::size_t(voxels.size.z) + 1, 0) {
+    const auto length = std::size_t(voxels.size.x);
+    x_.reserve(numbers_.size());
+    for (const std::size_t number : numbers_) {
+        x_.push_back(static_cast<std::int32_t>(number % length));
+        ++starts_[number / length + 1];
+    }
+    std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+}
+
+BeamLight send_beams(const CanopyVoxels& voxels, const FilledVoxels& filled, const ParallelLight& light, int beams) {
     BeamLight result;
     result.flux.assign(voxels.count(), 0);
     if (light.towards.y > 0) result.arrived.assign(voxels.ground_count(), 0);
-    const FilledVoxels filled(voxels, light);
+    const Thickness thickness(light.depth, voxels.edge);
     const double spacing = 1.0 / beams, across = spacing * spacing * std::abs(light.towards.y);
     for (int i = 0; i < beams; ++i) {
         for (int j = 0; j < beams; ++j) {
             const auto way = way_through(voxels, -light.towards, (i + 0.5) * spacing, (j + 0.5) * spacing);
-            Beams(voxels, light, filled, result).follow(way, across);
+            Beams(voxels, light, filled, thickness, result).follow(way, across);
         }
     }
     const double square = voxels.edge * voxels.edge;
@@ -232,10 +267,17 @@ BeamLight send_beams(const CanopyVoxels& voxels, const ParallelLight& light, int
 }
 
 BeamLight send_beams(const CanopyVoxels& voxels, std::span<const double> depth, const glm::dvec3& towards, int beams) {
+    std::vector<std::size_t> numbers;
+    std::vector<double> of_filled;
+    for (std::size_t v = 0; v < depth.size(); ++v) {
+        if (depth[v] == 0) continue;
+        numbers.push_back(v);
+        of_filled.push_back(depth[v]);
+    }
     ParallelLight light;
     light.towards = towards;
-    light.depth = depth;
-    return send_beams(voxels, light, beams);
+    light.depth = of_filled;
+    return send_beams(voxels, FilledVoxels(voxels, std::move(numbers)), light, beams);
 }
 
 }  // namespace espalier::environment

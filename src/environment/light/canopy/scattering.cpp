@@ -19,14 +19,6 @@ void add_to(std::vector<Number>& sums, const std::vector<Number>& more, double s
     for (std::size_t i = 0; i < more.size(); ++i) sums[i] += static_cast<Number>(share * more[i]);
 }
 
-/// Directions of the whole sphere, each half as a sky.
-std::vector<SkyPart> whole_sphere(std::int64_t rings, std::int64_t around) {
-    std::vector<SkyPart> parts = sky_parts(rings, around);
-    const std::size_t half = parts.size();
-    for (std::size_t i = 0; i < half; ++i) parts.push_back({-parts[i].towards, parts[i].solid_angle});
-    return parts;
-}
-
 }  // namespace
 
 void CanopyFlux::add(const CanopyFlux& other, double share) {
@@ -47,13 +39,64 @@ void CanopyEnds::add(const CanopyEnds& other, double share) {
 CanopyScattering::CanopyScattering(const CanopyVoxels& voxels, const SortedPieces& pieces, const Optics& optics,
                                    const LeafAngles& angles, std::span<const char> is_solid, const Options& options)
     : voxels_(voxels), pieces_(pieces), optics_(optics), angles_(angles), is_solid_(is_solid), options_(options) {
-    ordinates_ = whole_sphere(options.rings, options.around);
+    lay_out();
+    ordinates_ = sky_parts(options.rings, options.around);
     for (const SkyPart& part : ordinates_) seen_.emplace_back(part.towards, angles_, options_.clumping);
     whole_.assign(pieces.size(), 0);
-    for_each_if_worth(pieces.size(), pieces.size() * seen_.size(), [&](std::size_t i) {
+    for_pieces([&](std::size_t i) {
         for (std::size_t k = 0; k < seen_.size(); ++k) {
-            whole_[i] += ordinates_[k].solid_angle * seen_[k](pieces_.pieces[i]).front;
+            whole_[i] += ordinates_[k].solid_angle * seen_[k](leaves_[i]).both();  // one of them from below
         }
+    });
+}
+
+/// What the loops over pieces and voxels read, close together.
+void CanopyScattering::lay_out() {
+    leaves_.reserve(pieces_.size());
+    for (const LeafPiece& piece : pieces_.pieces) leaves_.push_back(piece.leaf);
+    std::vector<std::size_t> numbers;
+    std::size_t group = 0;
+    const std::size_t groups = pieces_.starts.empty() ? 0 : pieces_.starts.size() - 1;
+    const auto voxel_of = [&](std::size_t g) { return pieces_.pieces[pieces_.starts[g]].voxel; };
+    const auto add_groups_before = [&](std::size_t voxel) {
+        for (; group < groups && voxel_of(group) < voxel; ++group) {
+            places_.push_back(numbers.size());
+            numbers.push_back(voxel_of(group));
+        }
+    };
+    for (std::size_t v = 0; v < is_solid_.size(); ++v) {
+        if (!is_solid_[v]) continue;
+        add_groups_before(v);
+        if (group < groups && voxel_of(group) == v) {
+            places_.push_back(numbers.size());
+            ++group;
+        }
+        solids_.push_back(numbers.size());
+        numbers.push_back(v);
+    }
+    add_groups_before(voxels_.count());
+    filled_ = FilledVoxels(voxels_, std::move(numbers));
+}
+
+template <class Visit>
+void CanopyScattering::for_parts(std::size_t count, const Visit& visit) {
+    constexpr std::size_t worth_sharing = 8192;
+    using Part = tbb::blocked_range<std::size_t>;
+    if (count < worth_sharing) return visit(std::size_t{0}, count);
+    for_in_parallel(Part(0, count, worth_sharing / 4), [&](const Part& part) { visit(part.begin(), part.end()); });
+}
+
+template <class Visit>
+void CanopyScattering::for_pieces(const Visit& visit) const {
+    for_parts(pieces_.size(), [&](std::size_t first, std::size_t end) {
+        for (std::size_t i = first; i < end; ++i) visit(i);
+    });
+}
+
+template <class Visit>
+void CanopyScattering::for_voxels_of_pieces(const Visit& visit) const {
+    for_parts(places_.size(), [&](std::size_t first, std::size_t end) {
+        for (std::size_t g = first; g < end; ++g) visit(pieces_.starts[g], pieces_.starts[g + 1], places_[g]);
     });
 }
 
@@ -67,31 +110,48 @@ CanopyFlux CanopyScattering::darkness() const {
     return flux;
 }
 
-std::vector<double> CanopyScattering::depths(const LeavesSeen& seen) const {
-    std::vector<double> depth = seen.depths(voxels_, pieces_);
-    for (std::size_t v = 0; v < is_solid_.size(); ++v) {
-        if (is_solid_[v]) depth[v] = opaque / voxels_.edge;
-    }
-    return depth;
+void CanopyScattering::find_depths(const LeavesSeen& seen, std::vector<double>& depth) const {
+    const double per_volume = 1 / (voxels_.edge * voxels_.edge * voxels_.edge);
+    depth.assign(filled_.size(), 0);
+    for_voxels_of_pieces([&](std::size_t first, std::size_t end, std::size_t place) {
+        double sum = 0;
+        for (std::size_t i = first; i < end; ++i) sum += seen(leaves_[i]).both();
+        depth[place] = sum * per_volume;
+    });
+    mark_solids(depth);
+}
+
+void CanopyScattering::mark_solids(std::vector<double>& depth) const {
+    for (const std::size_t place : solids_) depth[place] = opaque / voxels_.edge;
+}
+
+/// What pieces meet of light from one direction, and, if given, from the opposite one.
+void CanopyScattering::meet(const LeavesSeen& seen, const BeamLight& sent, const BeamLight* opposite,
+                            CanopyFlux& sum) const {
+    for_voxels_of_pieces([&](std::size_t first, std::size_t end, std::size_t place) {
+        const std::size_t voxel = filled_.number(place);
+        if (!is_solid_.empty() && is_solid_[voxel]) return;
+        const double flux = sent.flux[voxel], from_behind = opposite ? opposite->flux[voxel] : 0;
+        for (std::size_t i = first; i < end; ++i) {
+            const LeavesSeen::Sides sides = seen(leaves_[i]);
+            sum.front[i] += sides.front * flux + sides.back * from_behind;
+            sum.back[i] += sides.back * flux + sides.front * from_behind;
+        }
+    });
 }
 
 BeamLight CanopyScattering::send(const ParallelLight& light, int beams, const LeavesSeen& seen, CanopyFlux& sum) const {
-    const BeamLight sent = send_beams(voxels_, light, beams);
-    for_each_if_worth(pieces_.size(), pieces_.size(), [&](std::size_t i) {
-        const LeafPiece& piece = pieces_.pieces[i];
-        if (!is_solid_.empty() && is_solid_[piece.voxel]) return;
-        const LeavesSeen::Sides sides = seen(piece);
-        sum.front[i] += sides.front * sent.flux[piece.voxel];
-        sum.back[i] += sides.back * sent.flux[piece.voxel];
-    });
+    BeamLight sent = send_beams(voxels_, filled_, light, beams);
     const double volume = voxels_.edge * voxels_.edge * voxels_.edge, square = voxels_.edge * voxels_.edge;
-    for (std::size_t v = 0; v < is_solid_.size(); ++v) {
-        if (is_solid_[v]) sum.solids += volume * light.depth[v] * sent.flux[v];
+    for (const std::size_t place : solids_) {
+        sum.solids += volume * light.depth[place] * sent.flux[filled_.number(place)];
     }
     const double projection = seen.projection();
-    for_each_if_worth(sent.flux.size(), sent.flux.size(), [&](std::size_t v) {
-        sum.fluence[v] += static_cast<float>(sent.flux[v]);
-        sum.isotropic[v] += static_cast<float>(sent.flux[v] * projection);
+    for_parts(sent.flux.size(), [&](std::size_t first, std::size_t end) {
+        for (std::size_t v = first; v < end; ++v) {
+            sum.fluence[v] += static_cast<float>(sent.flux[v]);
+            sum.isotropic[v] += static_cast<float>(sent.flux[v] * projection);
+        }
     });
     for (std::size_t c = 0; c < sent.arrived.size(); ++c) sum.ground[c] += sent.arrived[c];
     sum.entered += sent.entered;
@@ -102,8 +162,8 @@ BeamLight CanopyScattering::send(const ParallelLight& light, int beams, const Le
 /// Keeps what tells where the light of a beam falls.
 void CanopyScattering::look(const LightBeam& beam, const LeavesSeen& seen, const BeamLight& sent,
                             CanopyFlux& sum) const {
-    for_each_if_worth(pieces_.size(), pieces_.size(), [&](std::size_t i) {
-        const double area = seen(pieces_.pieces[i]).both(), met = area * sent.flux[pieces_.pieces[i].voxel];
+    for_pieces([&](std::size_t i) {
+        const double area = seen(leaves_[i]).both(), met = area * sent.flux[pieces_.pieces[i].voxel];
         sum.towards[i] += met * beam.towards;
         if (!beam.is_sun) return;
         sum.sun[i] += met;
@@ -116,15 +176,18 @@ CanopyFlux CanopyScattering::first(std::span<const LightBeam> beams) const {
     flux.sun.assign(pieces_.size(), 0);
     flux.open_sun.assign(pieces_.size(), 0);
     flux.towards.assign(pieces_.size(), glm::dvec3(0));
+    std::vector<double> depth;
     for (const LightBeam& beam : beams) {
         if (beam.photons <= 0) continue;
         const LeavesSeen seen(beam.towards, angles_, options_.clumping);
-        const std::vector<double> depth = depths(seen);
+        find_depths(seen, depth);
         ParallelLight light;
         light.towards = beam.towards;
         light.depth = depth;
         light.outside = beam.photons;
-        look(beam, seen, send(light, options_.beams, seen, flux), flux);
+        const BeamLight sent = send(light, options_.beams, seen, flux);
+        meet(seen, sent, nullptr, flux);
+        look(beam, seen, sent, flux);
         if (!voxels_.periodic) flux.outside += beam.photons * beam.towards.y;
     }
     return flux;
@@ -135,7 +198,7 @@ CanopyScattering::Emission CanopyScattering::scattered(const CanopyFlux& flux, s
     Emission emission;
     emission.front.resize(pieces_.size());
     emission.back.resize(pieces_.size());
-    for_each_if_worth(pieces_.size(), pieces_.size(), [&](std::size_t i) {
+    for_pieces([&](std::size_t i) {
         const LeafPiece& piece = pieces_.pieces[i];
         const auto [front, back] = optics_.of(piece.kind, piece.material, band);
         emission.front[i] = front.reflectance * flux.front[i] + back.transmittance * flux.back[i];
@@ -162,35 +225,57 @@ CanopyScattering::Emission CanopyScattering::scattered(const CanopyFlux& flux, s
     return emission;
 }
 
-/// What leaves of each voxel send away from an ordinate's source. A side is seen from ahead as the other from behind.
-std::vector<double> CanopyScattering::added(const Emission& emission, std::size_t ordinate) const {
-    const double solid_angle = ordinates_[ordinate].solid_angle;
-    return per_volume<double>(voxels_, pieces_, [&](std::size_t i) {
-        const LeavesSeen::Sides behind = seen_[ordinate](pieces_.pieces[i]);
-        if (!(whole_[i] > 0)) return 0.0;
-        return (emission.front[i] * behind.back + emission.back[i] * behind.front) * solid_angle / whole_[i];
+/// What leaves of each voxel hide of an ordinate, and send away from its source and towards it. A side is seen from
+/// ahead as the other from behind.
+void CanopyScattering::find_added(const Emission& per_side, std::size_t ordinate, Added& added) const {
+    const double volume = voxels_.edge * voxels_.edge * voxels_.edge;
+    const double share = ordinates_[ordinate].solid_angle / volume;
+    const LeavesSeen& seen = seen_[ordinate];
+    added.depth.assign(filled_.size(), 0);
+    added.away.assign(filled_.size(), 0);
+    added.towards.assign(filled_.size(), 0);
+    for_voxels_of_pieces([&](std::size_t first, std::size_t end, std::size_t place) {
+        double hidden = 0, away = 0, towards = 0;
+        for (std::size_t i = first; i < end; ++i) {
+            const LeavesSeen::Sides sides = seen(leaves_[i]);
+            hidden += sides.both();
+            away += per_side.front[i] * sides.back + per_side.back[i] * sides.front;
+            towards += per_side.front[i] * sides.front + per_side.back[i] * sides.back;
+        }
+        added.depth[place] = hidden * (1 / volume);
+        added.away[place] = away * share;
+        added.towards[place] = towards * share;
     });
+    mark_solids(added.depth);
 }
 
 CanopyFlux CanopyScattering::spread(const Emission& emission) const {
     CanopyFlux flux = darkness();
     std::vector<double> floor(emission.ground.size());
+    Emission per_side = emission;  // of what all ordinates see of a side
+    for_pieces([&](std::size_t i) {
+        const double of_side = whole_[i] > 0 ? 1 / whole_[i] : 0;
+        per_side.front[i] *= of_side;
+        per_side.back[i] *= of_side;
+    });
+    Added added;
     for (std::size_t k = 0; k < ordinates_.size(); ++k) {
-        const std::vector<double> depth = depths(seen_[k]);
-        const std::vector<double> more = added(emission, k);
+        find_added(per_side, k, added);
         const double share = ordinates_[k].solid_angle / std::numbers::pi;  // of what a Lambertian ground sends
         ParallelLight light;
         light.towards = ordinates_[k].towards;
-        light.depth = depth;
-        light.added = more;
+        light.depth = added.depth;
+        light.added = added.away;
         light.outside = 0;
-        if (light.towards.y < 0) {
-            light.outside = share * emission.outside;
-            std::transform(emission.ground.begin(), emission.ground.end(), floor.begin(),
-                           [&](double sent) { return share * sent; });
-            light.floor = floor;
-        }
-        send(light, 1, seen_[k], flux);
+        const BeamLight from_above = send(light, 1, seen_[k], flux);
+        light.towards = -light.towards;
+        light.added = added.towards;
+        light.outside = share * emission.outside;
+        std::transform(emission.ground.begin(), emission.ground.end(), floor.begin(),
+                       [&](double sent) { return share * sent; });
+        light.floor = floor;
+        const BeamLight from_below = send(light, 1, seen_[k], flux);
+        meet(seen_[k], from_above, &from_below, flux);
     }
     return flux;
 }

@@ -75,12 +75,29 @@ public:
     double side(std::size_t piece) const { return whole_[piece] / std::numbers::pi; }
 
 private:
+    /// By filled voxel, of one ordinate.
+    struct Added {
+        std::vector<double> depth, away, towards;
+    };
+
+    void lay_out();
     CanopyFlux darkness() const;
     Emission scattered(const CanopyFlux& flux, std::size_t band, CanopyEnds& ends) const;
     BeamLight send(const ParallelLight& light, int beams, const LeavesSeen& seen, CanopyFlux& sum) const;
+    void meet(const LeavesSeen& seen, const BeamLight& sent, const BeamLight* opposite, CanopyFlux& sum) const;
+    /// Calls visit(pieces of one voxel, from and to, its place among the filled voxels) for each voxel that has some.
+    template <class Visit>
+    void for_voxels_of_pieces(const Visit& visit) const;
+    /// Calls visit(piece) for each.
+    template <class Visit>
+    void for_pieces(const Visit& visit) const;
+    /// Calls visit(first, end) for parts of so many numbers.
+    template <class Visit>
+    static void for_parts(std::size_t count, const Visit& visit);
     void look(const LightBeam& beam, const LeavesSeen& seen, const BeamLight& sent, CanopyFlux& sum) const;
-    std::vector<double> depths(const LeavesSeen& seen) const;
-    std::vector<double> added(const Emission& emission, std::size_t ordinate) const;
+    void find_depths(const LeavesSeen& seen, std::vector<double>& depth) const;
+    void find_added(const Emission& per_side, std::size_t ordinate, Added& added) const;
+    void mark_solids(std::vector<double>& depth) const;
 
     const CanopyVoxels& voxels_;
     SortedPieces pieces_;
@@ -88,9 +105,13 @@ private:
     const LeafAngles& angles_;
     std::span<const char> is_solid_;
     Options options_;
-    std::vector<SkyPart> ordinates_;  ///< of the whole sphere
-    std::vector<LeavesSeen> seen_;    ///< by ordinate
-    std::vector<double> whole_;       ///< by piece: a side as all ordinates see it, m2 sr
+    std::vector<OrientedArea> leaves_;  ///< by piece
+    FilledVoxels filled_;               ///< by leaves, stems or solids
+    std::vector<std::size_t> places_;   ///< by voxel that has pieces: its place among the filled ones
+    std::vector<std::size_t> solids_;   ///< places of those that are solid
+    std::vector<SkyPart> ordinates_;    ///< of the upper half; each has an opposite one
+    std::vector<LeavesSeen> seen_;      ///< by ordinate
+    std::vector<double> whole_;         ///< by piece: a side as all ordinates see it, m2 sr
 };
 
 }  // namespace espalier::environment

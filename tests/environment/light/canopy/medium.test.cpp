@@ -103,6 +103,22 @@ TEST_CASE("beams leave the same light with one thread and with many", "[canopy]"
     CHECK(sent(1).passed == sent(8).passed);
 }
 
+TEST_CASE("a line of more voxels than are passed at once, thick and thin, keeps exp(-depth) of each beam", "[canopy]") {
+    for (const int length : {63, 64, 65, 150}) {
+        const CanopyVoxels voxels{{0, 0, 0}, {length, 2, 1}, 0.5, true};
+        std::vector<double> depth(voxels.count());
+        for (std::size_t v = 0; v < depth.size(); ++v)
+            depth[v] = std::pow(10.0, double(v * 7 % 15) - 12);  // to 100 / m
+        const BeamLight light = send_beams(voxels, depth, {0, 1, 0}, 1);
+        for (std::size_t x = 0; x < std::size_t(length); ++x) {
+            const double upper = 0.5 * depth[std::size_t(length) + x], lower = 0.5 * depth[x];
+            CHECK(light.flux[std::size_t(length) + x] == Approx(-std::expm1(-upper) / upper).epsilon(1e-10));
+            CHECK(light.flux[x] == Approx(std::exp(-upper) * -std::expm1(-lower) / lower).epsilon(1e-10).margin(1e-15));
+            CHECK(light.arrived[x] == Approx(std::exp(-upper - lower)).epsilon(1e-10).margin(1e-15));
+        }
+    }
+}
+
 TEST_CASE("light from straight above, along faces and through edges of voxels crosses all of them once", "[canopy]") {
     const CanopyVoxels voxels{{0, 0, 0}, {4, 4, 4}, 1, true};
     const std::vector<double> depth(voxels.count(), 1);
