@@ -25,6 +25,7 @@ if(ESPALIER_LOOK)
     IOOggTheora ChartsCore InteractionStyle InteractionWidgets RenderingAnnotation RenderingCore RenderingContext2D
     RenderingContextOpenGL2 RenderingFreeType RenderingOpenGL2 RenderingUI RenderingVolume RenderingVolumeOpenGL2)
   find_package(Boost 1.74 REQUIRED)  # Beast and Asio are headers
+  find_package(LibLZMA REQUIRED)  # frames of pages
   find_package(Qhull REQUIRED)  # convex hulls
   find_path(CMARK_INCLUDE_DIR cmark.h REQUIRED)  # Markdown of lessons; its CMake package wants the program, too
   find_library(CMARK_LIBRARY cmark REQUIRED)

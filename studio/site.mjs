@@ -74,7 +74,7 @@ function licences() {
   return `${page}\nThe module that grows plants contains parts of these packages.\n${licencesOfModule()}`;
 }
 
-/** Letters that need no escape in a page; source/web/packed.ts reads them. */
+/** Letters that need no escape in a page, which the page gets with each part. */
 const letters = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%()*+,-./:;=?@[]^_{|}";
 
 function to85(bytes) {
@@ -98,7 +98,7 @@ function packedByXz(bytes) {
 function singleFile(parts, data = {}) {
   const text = (name) => readFileSync(join(studio, "dist", name), "utf8");
   const elements = Object.entries({ ...parts, "studio.js": packedByXz(text("studio.js")) }).map(
-    ([name, bytes]) => `<script type="application/base85" id="part-${name}">${to85(bytes)}</script>\n`,
+    ([name, bytes]) => `<script type="application/base85" data-letters="${letters}" id="part-${name}">${to85(bytes)}</script>\n`,
   );
   const icon = `data:image/svg+xml;base64,${Buffer.from(text("icon.svg")).toString("base64")}`;
   return pageWith(`<meta http-equiv="Content-Security-Policy" content="${policy("'unsafe-inline'")}">`, elements.join(""), data)

@@ -43,8 +43,10 @@ TEST_CASE_METHOD(Recorded, "A shared page has all frames of a run, and nothing i
     CHECK(page.size() == Json::parse(shared.out)["bytes"]);
     const Json recording = recording_in("run/share.html");
     CHECK(recording["steps"] == Json{0, 1, 2, 3, 4, 5, 6});
-    CHECK(recording["packets"].size() == 7);
-    CHECK(recording["moments"].size() == 7);
+    CHECK(recording["together"] == 8);
+    CHECK(recording["packets"].size() == 1);
+    CHECK(recording["moments"].size() == 1);
+    CHECK(recording["fields"].empty());
     CHECK(recording["organs"].get<std::string>().size() > 100);
     CHECK(count(page, "</script>") == 2);
     CHECK_THAT(page, Contains("default-src 'none'") && !Contains("<link") && !Contains("<script src"));
@@ -59,6 +61,19 @@ TEST_CASE_METHOD(Recorded, "A shared page has so many frames as one asks for, an
     CHECK_THAT(text_of(path() / "pages/bush.html"), Contains("<title>&lt;/script>&lt;i>&amp;</title>"));
     REQUIRE(run("share run --step 2 --output one.html").code == 0);
     CHECK(recording_in("one.html")["steps"] == Json{2});
+}
+
+TEST_CASE_METHOD(Recorded, "A shared page has the fields that the run recorded", "[app][share]") {
+    write("wet.toml",
+          "[[plant]]\nmodel = \"bush.l\"\n[environment.water]\nprocess = \"soil-water\"\nvoxel = 0.5\ninitial = 0.2\n"
+          "domain = { lower = [-1, -2, -1], upper = [1, 0, 1] }\n[timeline]\nfields = [\"water\"]\n");
+    REQUIRE(run("run wet.toml --steps 9 --output wet --quiet").code == 0);
+    REQUIRE(run("share wet --output wet.html").code == 0);
+    const Json fields = recording_in("wet.html")["fields"];
+    REQUIRE(fields.size() == 1);
+    CHECK(fields[0]["name"] == "water");
+    CHECK(fields[0]["unit"] == "m3/m3");
+    CHECK(fields[0]["texts"].size() == 2);  // of ten frames, eight in the first
 }
 
 TEST_CASE_METHOD(Recorded, "What cannot be shared is said", "[app][share]") {

@@ -24,6 +24,7 @@ class Espalier < Formula
   depends_on "tbb"
   depends_on "tomlplusplus"
   depends_on "vtk"
+  depends_on "xz"
 
   def install
     system "cmake", "-S", ".", "-B", "build", "-G", "Ninja", "-DESPALIER_UNITY=ON", "-DESPALIER_TESTS=OFF", *std_cmake_args

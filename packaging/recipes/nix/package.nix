@@ -21,6 +21,7 @@
   tbb,
   tomlplusplus,
   vtk,
+  xz,
 }:
 
 stdenv.mkDerivation (finalAttrs: {
@@ -55,6 +56,7 @@ stdenv.mkDerivation (finalAttrs: {
     tbb
     tomlplusplus
     vtk
+    xz
   ];
 
   cmakeFlags = [

@@ -40,6 +40,7 @@ class Espalier(CMakePackage):
         depends_on("nlopt")
         depends_on("qhull")
         depends_on("vtk@9.1:")
+        depends_on("xz")
     with when("+python"):
         extends("python@3.11:")
         depends_on("py-numpy", type=("build", "run"))

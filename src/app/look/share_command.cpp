@@ -132,11 +132,12 @@ private:
     /// The page of so many frames at most as `bytes` allow; `count` becomes their number.
     template <class PageOf>
     static std::string within(std::size_t bytes, std::size_t& count, const PageOf& page_of) {
-        constexpr std::size_t few = 3;
-        if (count > 2 * few) {  // what a frame takes, from pages of few of them
+        constexpr std::size_t few = 8;  // of what they take, more follow
+        if (count > 2 * few) {
             const double size = static_cast<double>(page_of(few).size());
             const double each = (static_cast<double>(page_of(2 * few).size()) - size) / few;
-            const double fit = (static_cast<double>(bytes) - size) / std::max(each, 1.0) + few;
+            constexpr double closer = 1.15;  // frames that lie closer to each other take less
+            const double fit = closer * ((static_cast<double>(bytes) - size) / std::max(each, 1.0) + few);
             count = std::min(count, static_cast<std::size_t>(std::max(fit, 1.0)));
         }
         for (;;) {

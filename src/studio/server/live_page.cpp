@@ -2,7 +2,7 @@
 
 #include "espalier/base/error.h"
 
-#include "base/base64.h"
+#include "studio/server/frame_texts.h"
 #include "studio/server/page_files.h"
 #include "studio/server/page_text.h"
 
@@ -73,10 +73,9 @@ std::string live_page(const LiveGrowth& growth) {
     std::string page(live_page_file());
     replace(page, "data-open=", " ", fmt::format("data-open=\"{}\"{}{} ", in_html(opened), seed, steps));
     replace(page, "<title>", "</title>", fmt::format("<title>{}</title>", in_html(growth.title)));
-    constexpr std::string_view pack = "<script type=\"application/base85\" id=\"part-library.pack\">";
-    replace(page, pack, "</script>\n",
-            fmt::format("{}<script type=\"application/base64\" id=\"part-library.pack\">{}</script>\n", lesson,
-                        base64(gzipped(pack_of(growth.files, folder)))));
+    replace(page, "id=\"part-library.pack\">", "</script>\n",
+            fmt::format("id=\"part-library.pack\">{}</script>\n{}", in_letters(gzipped(pack_of(growth.files, folder))),
+                        lesson));
     return page;
 }
 

@@ -2,47 +2,28 @@
 
 #include "espalier/base/error.h"
 
-#include "base/base64.h"
 #include "environment/light/sky/scene_sky.h"
 #include "studio/growth/recorded_frame.h"
+#include "studio/packets/field_bytes.h"
+#include "studio/server/frame_texts.h"
 #include "studio/server/page_files.h"
 #include "studio/server/page_text.h"
 #include "studio/server/shared_organs.h"
 #include "studio/session/sky_message.h"
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
+#include <map>
 
 namespace espalier::studio {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string packed(const Json& json) {
-    return base64(deflated(json.dump(-1, ' ', false, Json::error_handler_t::replace)));
-}
-
-/// What the viewer does when it fits a plant that it sees from the side, in a window that is no higher than wide.
-Json camera_for(const FrameGeometry& geometry) {
-    glm::vec3 lower(0), upper(0, 1, 0);
-    if (!geometry.points.empty()) {
-        lower = glm::vec3(std::numeric_limits<float>::max()), upper = -lower;
-        for (const glm::vec3& point : geometry.points) lower = glm::min(lower, point), upper = glm::max(upper, point);
-    }
-    const glm::vec3 size = upper - lower, middle = 0.5f * (lower + upper);
-    constexpr double azimuth = 0.5, elevation = 0.16, half_of_view = 16 * std::numbers::pi / 180;
-    const double wide = std::max(size.x, size.z) / 2, high = size.y / 2 + 0.3 * wide * std::sin(elevation);
-    const double distance = 1.18 * std::max({high, wide, 1e-4}) / std::tan(half_of_view) + 0.6 * wide;
-    return {{"target", {middle.x, middle.y, middle.z}},
-            {"distance", distance},
-            {"azimuth", azimuth},
-            {"elevation", elevation}};
+std::string text_of(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 /// Up to a step. Nothing where a measured series has gone since: the page then has its usual light.
@@ -56,30 +37,70 @@ std::optional<environment::SceneSky> sky_of(const RecordedRun& run, int last_ste
     }
 }
 
+/// The fields that were recorded as grids, at most once a step.
+class SharedFields {
+public:
+    SharedFields(const RecordedRun& run, const std::vector<const RecordedFrame*>& frames) : run_(run) {
+        for (const std::string& name : run.field_names()) {
+            const auto has = [&](const RecordedFrame* frame) { return frame->fields.contains(name); };
+            if (std::all_of(frames.begin(), frames.end(), has)) names_.push_back(name);
+        }
+        texts_.resize(names_.size());
+    }
+
+    void add(const RecordedFrame& frame) {
+        for (std::size_t i = 0; i < names_.size(); ++i) {
+            const RecordedField field = run_.field(frame, names_[i]);
+            units_[names_[i]] = field.unit;
+            texts_[i].add(field_bytes(field, 1, frame.step));
+        }
+    }
+
+    Json take() {
+        Json fields = Json::array();
+        for (std::size_t i = 0; i < names_.size(); ++i) {
+            fields.push_back({{"name", names_[i]}, {"unit", units_[names_[i]]}, {"texts", texts_[i].take()}});
+        }
+        return fields;
+    }
+
+private:
+    const RecordedRun& run_;
+    std::vector<std::string> names_;
+    std::map<std::string, std::string> units_;
+    std::vector<FrameTexts> texts_;
+};
+
 Json recording_of(const RecordedRun& run, const std::vector<const RecordedFrame*>& frames, const SharedPage& page) {
-    Json steps = Json::array(), packets = Json::array(), moments = Json::array(), skies = Json::array();
+    Json steps = Json::array(), skies = Json::array();
+    FrameTexts packets, moments;
     const std::optional<environment::SceneSky> sky = sky_of(run, frames.back()->step);
     SharedOrgans organs(run);
+    SharedFields fields(run, frames);
     for (const RecordedFrame* const frame : frames) {
         const DrawnFrame drawn(run, *frame);
         steps.push_back(frame->step);
-        packets.push_back(base64(deflated(drawn.packet(1, frame->step))));
-        moments.push_back(packed(organs.add(drawn)));
+        packets.add(drawn.packet(1, frame->step));
+        moments.add(text_of(organs.add(drawn)));
+        fields.add(*frame);
         if (sky) skies.push_back(json_of(shown_sky(sky->at_step(frame->step))));
     }
     const Json none = Json::array();
     return {{"title", page.title},
             {"theme", page.is_dark ? "dark" : "light"},
+            {"letters", page_letters},
+            {"together", FrameTexts::together},
             {"steps", steps},
-            {"packets", packets},
+            {"packets", packets.take()},
             {"shapes", none},
             {"images", none},
             {"reliefs", none},
             {"limbs", none},
-            {"organs", packed(organs.table())},
-            {"moments", moments},
+            {"organs", in_letters(packed_by_xz(text_of(organs.table())))},
+            {"moments", moments.take()},
+            {"fields", fields.take()},
             {"skies", skies},
-            {"camera", camera_for(run.geometry(*frames.back()))},
+            {"camera", nullptr},
             {"light", {{"towardsEye", nullptr}, {"towardsLight", nullptr}, {"background", nullptr}}}};
 }
 
@@ -99,7 +120,7 @@ std::string shared_page(const RecordedRun& run, const std::vector<const Recorded
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; img-src data: blob:">
 <title>{}</title>
 <style>{}</style>
 </head>

@@ -1,4 +1,4 @@
-/** Compresses with what the browser has, and writes bytes as text. */
+/** Compresses with what the browser has, unpacks that and xz, and writes bytes as text. */
 
 async function through(bytes: BufferSource, stream: CompressionStream | DecompressionStream): Promise<Uint8Array> {
   const piped = new Blob([bytes as ArrayBuffer]).stream().pipeThrough(stream);
@@ -11,6 +11,29 @@ export function compress(bytes: BufferSource): Promise<Uint8Array> {
 
 export function decompress(bytes: Uint8Array): Promise<Uint8Array> {
   return through(bytes as Uint8Array<ArrayBuffer>, new DecompressionStream("deflate-raw"));
+}
+
+/** What is packed by xz or gzip; other bytes stay as they are. */
+export async function unpacked(bytes: Uint8Array): Promise<ArrayBuffer> {
+  const packed = new Blob([bytes as Uint8Array<ArrayBuffer>]).stream();
+  const is = (...letters: number[]) => letters.every((letter, i) => bytes[i] === letter);
+  if (is(0x1f, 0x8b)) return new Response(packed.pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+  if (!is(0xfd, 0x37)) return new Response(packed).arrayBuffer();
+  const { XzReadableStream } = await import("xz-decompress");
+  return new Response(new XzReadableStream(packed)).arrayBuffer();
+}
+
+/** Bytes that are written with 85 letters: five are four bytes, the last letter of them the least. Fewer at the end: one less byte. */
+export function fromLetters(text: string, letters: string): Uint8Array<ArrayBuffer> {
+  const values = new Uint8Array(128);
+  for (let i = 0; i < 85; i++) values[letters.charCodeAt(i)] = i;
+  const bytes = new Uint8Array(Math.floor((text.length * 4) / 5));
+  for (let from = 0, to = 0; from < text.length; from += 5, to += 4) {
+    let number = 0;
+    for (let i = 0; i < 5; i++) number = number * 85 + (from + i < text.length ? (values[text.charCodeAt(from + i)] ?? 0) : 84);
+    for (let i = 0; i < 4 && to + i < bytes.length; i++) bytes[to + i] = number / 256 ** (3 - i);
+  }
+  return bytes;
 }
 
 export function toBase64(bytes: Uint8Array): string {

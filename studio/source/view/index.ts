@@ -9,5 +9,5 @@ export type { PictureSource } from "./pictures.js";
 export type { AuthorLook, SkyLook } from "./light.js";
 export { PlantScene } from "./scene3d.js";
 export { steer } from "./steer.js";
-export { compress, decompress, fromBase64, toBase64, urlSafe } from "./compression.js";
+export { compress, decompress, fromBase64, fromLetters, toBase64, unpacked, urlSafe } from "./compression.js";
 export { playRecording, type Recording } from "./recording.js";

@@ -1,4 +1,5 @@
 /** The parts of a page that has its own session: files beside it, or, in a page that is one file, elements of it. */
+import { unpacked } from "../view/index.js";
 import { bytesInside } from "./packed.js";
 
 /** Whether the page has one: its document says where the parts are. */
@@ -15,19 +16,9 @@ async function packed(name: string): Promise<Uint8Array<ArrayBuffer>> {
   return new Uint8Array(await response.arrayBuffer());
 }
 
-type Packed = ReadableStream<Uint8Array<ArrayBuffer>>;
-
-async function unpacked(bytes: Uint8Array<ArrayBuffer>): Promise<ReadableStream> {
-  const packed: Packed = new Blob([bytes]).stream();
-  if (bytes[0] === 0x1f && bytes[1] === 0x8b) return packed.pipeThrough(new DecompressionStream("gzip"));
-  if (bytes[0] !== 0xfd || bytes[1] !== 0x37) return packed;
-  const { XzReadableStream } = await import("xz-decompress");
-  return new XzReadableStream(packed);
-}
-
 /** A part, unpacked; a server may have unpacked it on the way. */
 export async function part(name: string): Promise<ArrayBuffer> {
-  return new Response(await unpacked(await packed(name))).arrayBuffer();
+  return unpacked(await packed(name));
 }
 
 /** Where a text that is a part of the page can be read; null: it is a file. */
