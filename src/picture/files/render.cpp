@@ -6,6 +6,7 @@
 #include "archive/unfolding.h"
 #include "picture/files/film.h"
 #include "picture/files/frame_painter.h"
+#include "picture/files/picture_masks.h"
 #include "picture/stage/colouring.h"
 #include "picture/stage/legend.h"
 #include "picture/stage/sky_visibility.h"
@@ -70,6 +71,18 @@ public:
         }
         if (job_.progress) job_.progress(i + 1, pictures());
         return drawn;
+    }
+
+    /// Beside a picture of frame `i`. Returns the files.
+    std::vector<fs::path> write_masks_of(std::size_t i, const fs::path& picture) {
+        Stage& stage = painter_.stage();
+        if (is_in_pieces(*job_.frames[i])) show(*job_.frames[i]);  // rays need all plants at once
+        CameraPlace place = place_;
+        place.azimuth += turned(i);
+        stage.place_camera(place, job_.follow);
+        const archive::FrameOrgans organs(stage.geometry());
+        const PictureMasks masks = masks_of(stage, organs, stage.hiding_ground(), job_.size);
+        return write_masks(masks, organs, job_.run, stage, picture);
     }
 
     Stage& stage() { return painter_.stage(); }
@@ -241,8 +254,12 @@ std::vector<fs::path> render_pictures(const RenderJob& job, const fs::path& path
     JobPainter painter(stills);
     std::vector<fs::path> files;
     for (std::size_t i = 0; i < job.frames.size(); ++i) {
-        files.push_back(job.frames.size() == 1 ? path : numbered(path, job.frames[i]->step));
-        write_png(files.back(), *painter.picture(i));
+        const fs::path file = job.frames.size() == 1 ? path : numbered(path, job.frames[i]->step);
+        write_png(file, *painter.picture(i));
+        files.push_back(file);
+        if (!job.masks) continue;
+        const std::vector<fs::path> masks = painter.write_masks_of(i, file);
+        files.insert(files.end(), masks.begin(), masks.end());
     }
     return files;
 }

@@ -157,6 +157,8 @@ LitSurface LitScene::surface(const geometry::RayScene::Hit& hit, const glm::vec3
     const std::array<std::size_t, 3> at = corners_of(part, hit.triangle);
     const auto [a, b, c] = at;
     LitSurface surface{};
+    surface.part = hit.part;
+    surface.triangle = hit.triangle;
     surface.distance = hit.distance;
     surface.point = within(hit, part.points[a], part.points[b], part.points[c]);
     surface.flat = glm::cross(part.points[b] - part.points[a], part.points[c] - part.points[a]);

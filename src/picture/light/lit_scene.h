@@ -60,6 +60,7 @@ struct LitSurface {
     float opacity = 1;
     float distance = 0;
     bool is_ground = false;
+    std::uint32_t part = 0, triangle = 0;  ///< where it is no ground
 };
 
 class LitScene {
