@@ -39,6 +39,9 @@ struct RenderJob {
     /// Of pictures, not of films and sheets: files beside each that tell of every pixel how far away, how turned, and
     /// which organ it is.
     bool masks = false;
+    /// Several pictures of each frame: `camera` is at these azimuths, degrees, one after the other. Files of the second
+    /// frame's first are NAME-0012-0.png.
+    std::vector<double> azimuths{};
 };
 
 // Files appear complete or not at all; the same job gives the same pictures. All throw UserError for arrays and fields

@@ -12,6 +12,7 @@
 #include "base/folder.h"
 #include "base/json_text.h"
 #include "base/platform.h"
+#include "part_option.h"
 #include "picture_options.h"
 #include "study/fit/fit.h"
 #include "study/fit/unknowns.h"
@@ -52,13 +53,16 @@ private:
     std::chrono::steady_clock::time_point drawn_at_{};
 };
 
+constexpr const char* by_simulation = "By simulation (--method abc)";
+
 class Fit final : public Command {
 public:
     explicit Fit(CLI::App& program)
         : Command(program, "fit", "find parameters of a model or a scene from measurements"),
           sets_(app()),
           growth_(app()),
-          picture_(app()) {
+          picture_(app()),
+          part_(app(), "simulate", by_simulation) {
         app().add_option("what", file_, "a model, or a scene (.toml)")->required();
         app().add_option(
             "targets", targets_,
@@ -99,7 +103,7 @@ Examples:
     int run() override {
         const study::FitTask task = task_of();
         if (task.growth.subject().is_scene()) ask_for_trust(task);
-        if (list_ > 0) return print_commands();
+        if (part_.wants_list()) return print_commands();
         const InterruptibleRun interruptible(quiet_);
         FitLine line(quiet_ || wants_json());
         const study::FitProgress progress = [&](const std::string& doing, std::size_t done, std::size_t all) {
@@ -121,7 +125,7 @@ Examples:
 
 private:
     void add_method_options() {
-        const char* const abc = "By simulation (--method abc)";
+        const char* const abc = by_simulation;
         app()
             .add_option(
                 "--worlds", squares_.worlds,
@@ -149,11 +153,6 @@ private:
             ->check(CLI::Range(1e-6, 1.0))
             ->capture_default_str()
             ->group(abc);
-        app()
-            .add_option("--list", list_, "print so many commands that simulate a part each, and do not fit")
-            ->check(CLI::Range(1, 100000))
-            ->group(abc);
-        app().add_option("--part", part_, "NUMBER/OF: simulate only this part")->group(abc);
     }
 
     bool wants_posterior() const { return method_ == "abc"; }
@@ -191,19 +190,12 @@ private:
     study::AbcFitOptions abc_options() const {
         study::AbcFitOptions options = abc_;
         options.folder = folder() / "simulations";
-        if (part_.empty()) return options;
-        const std::size_t slash = part_.find('/');
-        const auto number = whole_text_as<int>(part_.substr(0, slash));
-        const auto of = whole_text_as<int>(slash == part_.npos ? "" : part_.substr(slash + 1));
-        if (!number || !of || *number < 1 || *number > *of) {
-            throw UserError(fmt::format("--part {}: expected NUMBER/OF, such as 3/20", part_));
-        }
-        options.part = {static_cast<std::size_t>(*number - 1), static_cast<std::size_t>(*of)};
+        options.part = {part_.number(), part_.of()};
         return options;
     }
 
     int print_commands() const {
-        for (int part = 1; part <= list_; ++part) {
+        for (int part = 1; part <= part_.parts(); ++part) {
             std::vector<std::string> words{quoted(platform::program_file().string()), "fit", quoted(file_.string())};
             for (const fs::path& target : targets_) words.push_back(quoted(target.string()));
             const auto add = [&](const char* option, const std::string& value) {
@@ -218,7 +210,7 @@ private:
             if (growth_.trust()) words.emplace_back("--trust");
             add("--simulations", std::to_string(abc_.simulations));
             add("--output", folder().string());
-            add("--part", fmt::format("{}/{}", part, list_));
+            add("--part", fmt::format("{}/{}", part, part_.parts()));
             fmt::print("{} --method abc --quiet\n", fmt::join(words, " "));
         }
         return exit_code::done;
@@ -319,10 +311,10 @@ private:
     fs::path file_, overlay_, output_;
     std::vector<fs::path> targets_;
     std::vector<std::string> parameters_, defines_;
-    std::string plant_, method_ = "least-squares", part_;
+    std::string plant_, method_ = "least-squares";
     study::LeastSquaresOptions squares_;
     study::AbcFitOptions abc_;
-    int list_ = 0;
+    PartOption part_;
     bool quiet_ = false;
 };
 

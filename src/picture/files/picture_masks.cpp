@@ -30,11 +30,10 @@ struct Met {
 
 class Masker {
 public:
-    Masker(const Stage& stage, const archive::FrameOrgans& organs, const std::optional<LitGround>& ground,
-           const PictureSize& size)
+    Masker(const Stage& stage, const archive::FrameOrgans& organs, const LitScene& scene, const PictureSize& size)
         : stage_(stage),
           organs_(organs),
-          scene_(stage.lit_parts(), ground),
+          scene_(scene),
           camera_(stage.view(), size),
           ahead_(glm::normalize(stage.view().focus - stage.view().position)) {}
 
@@ -44,6 +43,7 @@ public:
             corners[k] = through(x, y, k % 2 == 0 ? 0.25 : 0.75, k < 2 ? 0.25 : 0.75);
         }
         const Met& most = most_frequent(corners);
+        if (!most.is_there) return most;
         const Met middle = through(x, y, 0.5, 0.5);
         return middle.is_there == most.is_there && middle.organ == most.organ ? middle : most;
     }
@@ -69,7 +69,7 @@ private:
         constexpr int most_layers = 64;
         float from = 0;
         for (int layer = 0; layer < most_layers; ++layer) {
-            const auto surface = scene_.seen(origin, direction, from);
+            const auto surface = scene_.met(origin, direction, from);
             if (!surface || surface->opacity >= 0.5F) return surface;
             from = surface->distance + scene_.gap(surface->point);
         }
@@ -104,7 +104,7 @@ private:
 
     const Stage& stage_;
     const archive::FrameOrgans& organs_;
-    LitScene scene_;
+    const LitScene& scene_;
     RayCamera camera_;
     glm::dvec3 ahead_;
 };
@@ -149,14 +149,16 @@ GreyPicture numbers(const PictureMasks& masks, const Number& number) {
 
 }  // namespace
 
-PictureMasks masks_of(const Stage& stage, const archive::FrameOrgans& organs, const std::optional<LitGround>& ground,
-                      const PictureSize& size) {
+MaskScene::MaskScene(const Stage& stage)
+    : stage_(stage), organs_(stage.geometry()), scene_(stage.lit_parts(), stage.hiding_ground()) {}
+
+PictureMasks MaskScene::masks(const PictureSize& size) const {
     const auto width = static_cast<std::size_t>(size.width), height = static_cast<std::size_t>(size.height);
     PictureMasks masks{width, height, {}, {}, {}};
     masks.depths.resize(width * height);
     masks.normals.resize(width * height);
     masks.organs.resize(width * height);
-    const Masker masker(stage, organs, ground, size);
+    const Masker masker(stage_, organs_, scene_, size);
     tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
         for (std::size_t x = 0; x < width; ++x) {
             const Met met = masker.pixel(x, y);

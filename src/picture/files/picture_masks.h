@@ -24,11 +24,23 @@ struct PictureMasks {
     std::vector<std::int32_t> organs;  ///< numbers as FrameOrgans has them; `none`: no organ
 };
 
-/// Of what a stage shows. As a pixel of a picture is the mean of four, each pixel has the organ that most of four rays
-/// meet if half of them or more meet plants; depth and normal are those of the ray through its middle, or, where that
-/// meets another organ, of one of the four. What lets more than half of the light through is not there.
-PictureMasks masks_of(const Stage& stage, const archive::FrameOrgans& organs, const std::optional<LitGround>& ground,
-                      const PictureSize& size);
+/// What a stage shows, until it shows something else.
+class MaskScene {
+public:
+    explicit MaskScene(const Stage& stage);
+
+    const archive::FrameOrgans& organs() const { return organs_; }
+    /// As the camera of the stage sees it now. As a pixel of a picture is the mean of four, each pixel has the organ
+    /// that most of four rays meet if half of them or more meet plants; depth and normal are those of the ray through
+    /// its middle, or, where that meets another organ, of one of the four. What lets more than half of the light
+    /// through is not there.
+    PictureMasks masks(const PictureSize& size) const;
+
+private:
+    const Stage& stage_;
+    archive::FrameOrgans organs_;
+    LitScene scene_;
+};
 
 /// Beside NAME.png: NAME-depth.npy, NAME-normal.npy, NAME-organ.npy, NAME-plant.png, NAME-symbol.png, NAME-organs.csv
 /// and NAME-camera.json, as docs/render.md tells. Each complete or not at all. Returns their paths. Throws RunError.

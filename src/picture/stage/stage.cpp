@@ -137,6 +137,7 @@ public:
     std::shared_ptr<const FrameGeometry> load(const RecordedFrame& frame) const {
         const bool is_here = frame_ && frame_->plants == frame.plants && !frame.plants.empty();
         if (is_here && style_.bark.empty()) return geometry_;
+        if (frame.geometry) return frame.geometry;
         if (frame.plants.empty()) return std::make_shared<FrameGeometry>();
         return std::make_shared<FrameGeometry>(run_->geometry(frame));
     }
