@@ -38,21 +38,31 @@ public:
           ahead_(glm::normalize(stage.view().focus - stage.view().position)) {}
 
     Met pixel(std::size_t x, std::size_t y) const {
+        std::array<glm::vec3, 4> origins, directions;
+        for (std::size_t k = 0; k < origins.size(); ++k) {
+            const auto [origin, direction] = ray(x, y, k % 2 == 0 ? 0.25 : 0.75, k < 2 ? 0.25 : 0.75);
+            origins[k] = origin, directions[k] = direction;
+        }
+        const LitScene::FourSurfaces surfaces = scene_.met(origins, directions);
         std::array<Met, 4> corners;
-        for (std::size_t k = 0; k < corners.size(); ++k) {
-            corners[k] = through(x, y, k % 2 == 0 ? 0.25 : 0.75, k < 2 ? 0.25 : 0.75);
+        for (std::size_t k = 0; k < origins.size(); ++k) {
+            if (surfaces[k]) corners[k] = met(origins[k], directions[k], surfaces[k]);
         }
         const Met& most = most_frequent(corners);
         if (!most.is_there) return most;
-        const Met middle = through(x, y, 0.5, 0.5);
+        const auto [origin, direction] = ray(x, y, 0.5, 0.5);
+        const Met middle = met(origin, direction, scene_.met(origin, direction, 0));
         return middle.is_there == most.is_there && middle.organ == most.organ ? middle : most;
     }
 
 private:
-    Met through(std::size_t x, std::size_t y, double right, double down) const {
-        const auto [origin, direction] =
-            camera_.through({static_cast<double>(x) + right, static_cast<double>(y) + down});
-        const auto surface = first_opaque(origin, direction);
+    RayCamera::Ray ray(std::size_t x, std::size_t y, double right, double down) const {
+        return camera_.through({static_cast<double>(x) + right, static_cast<double>(y) + down});
+    }
+
+    /// `first`: the first surface, opaque or not.
+    Met met(const glm::vec3& origin, const glm::vec3& direction, const std::optional<LitSurface>& first) const {
+        const auto surface = opaque(origin, direction, first);
         if (!surface || is_beyond_disc(*surface)) return {};
         Met met{0, surface->normal, PictureMasks::none, true};
         const glm::dvec3 way = static_cast<double>(surface->distance) * glm::dvec3(direction);
@@ -65,13 +75,12 @@ private:
         return met;
     }
 
-    std::optional<LitSurface> first_opaque(const glm::vec3& origin, const glm::vec3& direction) const {
+    std::optional<LitSurface> opaque(const glm::vec3& origin, const glm::vec3& direction,
+                                     std::optional<LitSurface> surface) const {
         constexpr int most_layers = 64;
-        float from = 0;
         for (int layer = 0; layer < most_layers; ++layer) {
-            const auto surface = scene_.met(origin, direction, from);
             if (!surface || surface->opacity >= 0.5F) return surface;
-            from = surface->distance + scene_.gap(surface->point);
+            surface = scene_.met(origin, direction, surface->distance + scene_.gap(surface->point));
         }
         return std::nullopt;
     }

@@ -133,11 +133,14 @@ LitScene::LitScene(std::vector<LitPart> parts, const std::optional<LitGround>& g
 std::optional<geometry::RayScene::Hit> LitScene::first_hit(const glm::vec3& origin, const glm::vec3& direction,
                                                            float from, float to) const {
     auto hit = rays_.first_hit(origin, direction, from, to);
-    if (!hit) return hit;
-    const auto behind = std::upper_bound(first_triangles_.begin(), first_triangles_.end(), hit->triangle);
-    hit->part = static_cast<std::uint32_t>(behind - first_triangles_.begin() - 1);
-    hit->triangle -= first_triangles_[hit->part];
+    if (hit) tell_part(*hit);
     return hit;
+}
+
+void LitScene::tell_part(geometry::RayScene::Hit& hit) const {
+    const auto behind = std::upper_bound(first_triangles_.begin(), first_triangles_.end(), hit.triangle);
+    hit.part = static_cast<std::uint32_t>(behind - first_triangles_.begin() - 1);
+    hit.triangle -= first_triangles_[hit.part];
 }
 
 float LitScene::gap(const glm::vec3& point) const {
@@ -215,12 +218,28 @@ LitSurface LitScene::surface(const geometry::RayScene::Hit& hit, const glm::vec3
 std::optional<LitSurface> LitScene::met(const glm::vec3& origin, const glm::vec3& direction, float from) const {
     const std::optional<LitSurface> ground = on_ground(origin, direction, from);
     const auto hit = first_hit(origin, direction, from, ground ? ground->distance : furthest);
-    if (!hit) return ground;
-    LitSurface surface = bare_surface(*hit, direction);
-    const LitPart& part = parts_[hit->part];
+    return hit ? std::optional(uncoloured(*hit, direction)) : ground;
+}
+
+LitScene::FourSurfaces LitScene::met(std::span<const glm::vec3, 4> origins,
+                                     std::span<const glm::vec3, 4> directions) const {
+    auto hits = rays_.first_hits(origins, directions, furthest);
+    FourSurfaces surfaces;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        surfaces[i] = on_ground(origins[i], directions[i], 0);
+        if (!hits[i] || (surfaces[i] && surfaces[i]->distance < hits[i]->distance)) continue;
+        tell_part(*hits[i]);
+        surfaces[i] = uncoloured(*hits[i], directions[i]);
+    }
+    return surfaces;
+}
+
+LitSurface LitScene::uncoloured(const geometry::RayScene::Hit& hit, const glm::vec3& direction) const {
+    LitSurface surface = bare_surface(hit, direction);
+    const LitPart& part = parts_[hit.part];
     if (part.texture) {
-        const auto [a, b, c] = corners_of(part, hit->triangle);
-        surface.opacity *= part.texture->at(within(*hit, part.uvs[a], part.uvs[b], part.uvs[c]), false).w;
+        const auto [a, b, c] = corners_of(part, hit.triangle);
+        surface.opacity *= part.texture->at(within(hit, part.uvs[a], part.uvs[b], part.uvs[c]), false).w;
     }
     return surface;
 }

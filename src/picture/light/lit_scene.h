@@ -73,6 +73,9 @@ public:
     std::optional<LitSurface> seen(const glm::vec3& origin, const glm::vec3& direction, float from) const;
     /// The same without colours and relief.
     std::optional<LitSurface> met(const glm::vec3& origin, const glm::vec3& direction, float from) const;
+    /// met() of four rays beside each other, quicker; from their origins on.
+    using FourSurfaces = std::array<std::optional<LitSurface>, 4>;
+    FourSurfaces met(std::span<const glm::vec3, 4> origins, std::span<const glm::vec3, 4> directions) const;
     /// The share of light that comes straight through.
     float clearness(const glm::vec3& origin, const glm::vec3& direction) const;
     /// How far rays leave a point before they may meet something: surfaces do not meet themselves.
@@ -81,10 +84,12 @@ public:
     const std::optional<LitGround>& ground() const { return ground_; }
 
 private:
-    /// Its triangle counts from the first of its part.
+    /// The triangle counts from the first of its part.
+    void tell_part(geometry::RayScene::Hit& hit) const;
     std::optional<geometry::RayScene::Hit> first_hit(const glm::vec3& origin, const glm::vec3& direction, float from,
                                                      float to) const;
     LitSurface surface(const geometry::RayScene::Hit& hit, const glm::vec3& direction) const;
+    LitSurface uncoloured(const geometry::RayScene::Hit& hit, const glm::vec3& direction) const;
     /// Without colours, texture and relief.
     LitSurface bare_surface(const geometry::RayScene::Hit& hit, const glm::vec3& direction) const;
     std::optional<LitSurface> on_ground(const glm::vec3& origin, const glm::vec3& direction, float from) const;
