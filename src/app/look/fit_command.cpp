@@ -67,7 +67,7 @@ public:
         app().add_option(
             "targets", targets_,
             "what was measured, one file or several: marks on a picture (.svg, .csv), traits or a course (.csv), "
-            "measured plants; default: those of the scene's [fit]");
+            "points of a scanner (.ply, .xyz, .csv, .toml), measured plants; default: those of the scene's [fit]");
         app()
             .add_option("--parameter", parameters_,
                         "what is sought: a #define, or a key of the scene: NAME, NAME=START, NAME=LOW:HIGH, "
@@ -84,7 +84,8 @@ public:
             ->capture_default_str();
         add_method_options();
         app().add_option("--output", output_, "folder for tables and charts; default with abc: output/<model>-fit");
-        app().add_option("--overlay", overlay_, "draw marks (red) and fitted model (blue) into this .svg");
+        app().add_option("--overlay", overlay_,
+                         "draw marks or points (red) and the fitted model (blue) into this .svg");
         app().add_flag("--quiet", quiet_, "print errors only");
         add_json_flag("print the result as JSON");
         app().footer(
@@ -95,6 +96,7 @@ docs/fitting.md shows each of them.
 Examples:
   espalier fit models/trees/ternary.l marks.svg --parameter ANGLE --parameter RATIO=0.7
   espalier fit fern.l fern.svg --overlay fitted.svg
+  espalier fit tree.l scan.ply --parameter ANGLE=10:60 --parameter RATIO=0.5:0.9
   espalier fit bush.l plants.csv --method abc --parameter ANGLE=10:60 --parameter RATE=log:0.01:1
   espalier fit stand.toml --method abc --generations 3 --output output/stand-fit
   espalier fit bush.l plants.csv --method abc --list 20 > commands        for a cluster: docs/fitting.md)");
@@ -234,7 +236,7 @@ private:
             const std::string overlay = grown ? target->overlay(*grown) : "";
             if (!overlay.empty()) return write_text(overlay_, overlay);
         }
-        throw UserError("--overlay: no target is marks on a picture");
+        throw UserError("--overlay: no target is marks on a picture, or points");
     }
 
     std::string command(const study::FitTask& task, const study::FitResult& result) const {
