@@ -55,7 +55,8 @@ public:
             .add_option(
                 "--columns", points_.columns,
                 "columns of the points: x,y,z,distance,intensity,return,returns,beam,plant,organ,identity,symbol,"
-                "order,age; default: all that the format has")
+                "order,age, which are the default, echo_width,time,zenith,azimuth; or helios++, those of its .xyz "
+                "files")
             ->delimiter(',');
         app().add_option("--up", up_, "the axis that points upwards in the file")->check(CLI::IsMember({"y", "z"}));
         add_instruments();
@@ -159,6 +160,11 @@ private:
         add("--resolution", scan_.resolution, "distance below which two returns of a beam are one, m", 100);
         add("--distance-noise", scan_.distance_noise, "standard deviation of distances, m", 100);
         add("--angle-noise", scan_.angle_noise, "standard deviation of angles, degrees", 10);
+        app()
+            .add_option("--pulse-rate", scan_.pulse_rate, "beams a second, for the column time")
+            ->check(CLI::Range(1.0, 1e9))
+            ->capture_default_str()
+            ->group(beams);
         app().add_option("--seed", scan_.seed, "seed of the noise")->capture_default_str()->group(beams);
         app()
             .add_option("--sides", sides_, "corners around an internode")

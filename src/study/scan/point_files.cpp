@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <array>
@@ -56,15 +57,39 @@ const std::array all_columns{
                             const PointNames&) { return of ? of->order : none; }},
     PointColumn{"age", [](const ScanPoint&, const archive::FrameOrgan* of,
                           const PointNames& names) { return of ? double(names.step - of->birth) : none; }},
+    PointColumn{"echo_width",  // ns that light needs to and fro
+                [](const ScanPoint& p, const archive::FrameOrgan*, const PointNames&) {
+                    constexpr double metres_per_nanosecond = 0.299792458;
+                    return 2 * p.depth / metres_per_nanosecond;
+                }},
+    PointColumn{"time", [](const ScanPoint& p, const archive::FrameOrgan*, const PointNames&) { return p.time; }},
+    PointColumn{"zenith",  // degrees
+                [](const ScanPoint& p, const archive::FrameOrgan*, const PointNames&) {
+                    return glm::degrees(std::acos(std::clamp(double{p.direction.y}, -1.0, 1.0)));
+                }},
+    PointColumn{"azimuth",  // degrees from -z towards +x
+                [](const ScanPoint& p, const archive::FrameOrgan*, const PointNames&) {
+                    return glm::degrees(std::atan2(double{p.direction.x}, -double{p.direction.z}));
+                }},
 };
+
+// Of all columns, those that every file has unless others are asked for.
+constexpr std::size_t usual_columns = 14;
+
+/// What HELIOS++ writes into its .xyz files (Winiwarter et al. 2022): X, Y, Z, intensity, echo width, return number,
+/// number of returns, index of the pulse, object, class, time.
+const std::vector<std::string> helios_columns{"x",       "y",    "z",     "intensity", "echo_width", "return",
+                                              "returns", "beam", "plant", "symbol",    "time"};
 
 /// `is_text`: the file has texts and whole numbers of any size.
 std::vector<const PointColumn*> chosen(const PointFileOptions& options, bool is_text) {
     std::vector<std::string> names = options.columns;
     if (names.empty()) {
         names = point_columns();
+        names.resize(usual_columns);
         if (!is_text) std::erase(names, "identity");
     }
+    if (names == std::vector<std::string>{"helios++"}) names = helios_columns;
     std::vector<const PointColumn*> found;
     for (const std::string& name : names) {
         const auto column = std::find_if(all_columns.begin(), all_columns.end(),

@@ -94,6 +94,7 @@ ScanPlan read_scan(const Settings& table) {
     options.resolution = table.number_or("resolution", options.resolution, Range::between(0, 100));
     options.distance_noise = table.number_or("distance_noise", options.distance_noise, Range::between(0, 100));
     options.angle_noise = table.number_or("angle_noise", options.angle_noise, Range::between(0, 10));
+    options.pulse_rate = table.number_or("pulse_rate", options.pulse_rate, Range::between(1, 1e9));
     plan.sides = static_cast<int>(table.integer_or("sides", plan.sides, Range::between(3, 64)));
     if (table.flag_or("bare", false)) {
         plan.ground.reset();
