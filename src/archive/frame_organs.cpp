@@ -21,13 +21,13 @@ FrameOrgans::FrameOrgans(const FrameGeometry& geometry) : geometry_(geometry) {
 
 void FrameOrgans::add(const FrameAttributes& of, std::size_t row, bool is_leaf) {
     const auto number = static_cast<std::uint32_t>(organs_.size());
-    const auto [at, is_new] = numbers_.try_emplace({is_leaf, of.plants[row], of.identities[row]}, number);
+    const auto [at, is_new] = numbers_.try_emplace({of.identities[row], of.plants[row], is_leaf}, number);
     if (!is_new) return;
     organs_.push_back({of.plants[row], of.identities[row], of.symbols[row], of.orders[row], of.births[row], is_leaf});
 }
 
 std::optional<std::uint32_t> FrameOrgans::find(const FrameAttributes& of, std::size_t row, bool is_leaf) const {
-    const auto found = numbers_.find({is_leaf, of.plants[row], of.identities[row]});
+    const auto found = numbers_.find({of.identities[row], of.plants[row], is_leaf});
     return found == numbers_.end() ? std::nullopt : std::optional(found->second);
 }
 

@@ -1,14 +1,14 @@
 // The organs of one frame by number: what the points of a scan and the pixels of a picture are labelled with.
 #pragma once
 
+#include "espalier/base/random.h"
 #include "espalier/geometry/frame_geometry.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
-#include <tuple>
+#include <unordered_map>
 #include <vector>
 
 namespace espalier::archive {
@@ -38,7 +38,18 @@ private:
 
     const FrameGeometry& geometry_;
     std::vector<FrameOrgan> organs_;
-    std::map<std::tuple<bool, std::uint32_t, std::uint64_t>, std::uint32_t> numbers_;
+    struct Key {
+        std::uint64_t identity;
+        std::uint32_t plant;
+        bool is_leaf;
+        bool operator==(const Key&) const = default;
+    };
+    struct Hash {
+        std::size_t operator()(const Key& key) const {
+            return mix(key.identity, 2 * std::uint64_t{key.plant} + key.is_leaf);
+        }
+    };
+    std::unordered_map<Key, std::uint32_t, Hash> numbers_;
 };
 
 /// A table with a row for each organ: its number, plant, identity, symbol, order, birth and age (steps), and whether it
