@@ -8,6 +8,7 @@
 #include "picture/light/lit_scene.h"
 #include "picture/stage/stage.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>

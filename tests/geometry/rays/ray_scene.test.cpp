@@ -1,6 +1,7 @@
 #include "geometry/rays/ray_scene.h"
 
 #include "espalier/base/random.h"
+#include "espalier/base/stations.h"
 
 #include "catch.h"
 
