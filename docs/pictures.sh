@@ -271,4 +271,9 @@ cp "$work/trees-measured/analysis.png" "$work/roots-measured/layers.png" "$pictu
     --parameter RATE_0=0.005:0.05 --parameter SPACING_0=log:0.003:0.03 --parameter LENGTH_1=0.02:0.4 \
     --parameter ANGLE_1=40:90 --output "$work/lupine-fit" --size 1170x1065 --quiet
 cp "$work/lupine-fit/fit.png" "$pictures/fit.png"
+grow forgotten models/trees/honda.l --define R1=0.86 --define R2=0.74 --define A1=17 --define A2=-48 --define DIVERGENCE=120
+"$espalier" scan "$work/forgotten" --at 8,2,8 --at=-8,2,-8 --at 8,2,-8 --angle 0.15 --distance-noise 0.005 --no-ground \
+    --output "$work/forgotten.ply" --quiet
+"$espalier" fit models/trees/honda.l "$work/forgotten.ply" --parameter R1 --parameter R2 --parameter A1=0:40 \
+    --parameter A2=-80:-20 --parameter DIVERGENCE --overlay "$pictures/found-tree.svg" --quiet
 ls -l "$pictures"

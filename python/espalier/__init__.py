@@ -7,7 +7,7 @@
 
 from ._espalier import Error, Field, Module, ModuleString, PlantFrame, RunError, __version__
 from .conversions import add_conversions
-from .looking import analyse, check, export, fit, plot, render, share, sweep, translate, tree
+from .looking import analyse, check, dataset, export, fit, plot, render, scan, share, sweep, translate, tree
 from .lpy import from_lpy
 from .recorded import Run, open
 from .scene import Model, Plant, Process, Scene, process, record
@@ -33,6 +33,7 @@ __all__ = [
     "__version__",
     "analyse",
     "check",
+    "dataset",
     "export",
     "fit",
     "from_lpy",
@@ -41,6 +42,7 @@ __all__ = [
     "process",
     "record",
     "render",
+    "scan",
     "share",
     "sweep",
     "translate",

@@ -76,6 +76,26 @@ def fit(what, *targets, parameter=None, **options):
     return call_for_json("fit", what, *targets, parameter=parameter, **options)
 
 
+def scan(run, output, **options):
+    """What a scanner or a depth camera sees of a run, as a DataFrame of points: scan(run, "points.csv", at="4,1,4"). Of
+    other files than .csv, the numbers of beams and points."""
+    told = call_for_json("scan", _path_of(run), output=output, **options)
+    if pathlib.Path(output).suffix != ".csv":
+        return told
+    import pandas
+
+    return pandas.read_csv(output)
+
+
+def dataset(file, output=None, **options):
+    """Grows, scans and draws the labelled plants of a data set's file: a DataFrame with a row for each plant, as
+    dataset.csv has it. A data set in the same folder goes on where it stopped."""
+    import pandas
+
+    told = call_for_json("dataset", file, output=output, **options)
+    return pandas.read_csv(pathlib.Path(told["folder"]) / "dataset.csv")
+
+
 def translate(file):
     """The model, as text, that a file of another notation (.pgraph, .sdl, .species) stands for."""
     return call("translate", file)

@@ -103,6 +103,19 @@ def test_a_fit_finds_the_parameters_of_the_marks(tmp_path):
     assert found["ANGLE"]["value"] == pytest.approx(35, abs=1e-3)
 
 
+def test_a_scan_and_a_data_set_are_tables(run, tmp_path):
+    points = es.scan(run, tmp_path / "points.csv", at="4,1,4", angle=0.3, no_ground=True)
+    assert len(points) > 5 and set(points["plant"]) == {"bush"}
+    assert es.scan(run, tmp_path / "points.ply", at="4,1,4", angle=0.3, no_ground=True)["points"] == len(points)
+    (tmp_path / "bush.l").write_text(BUSH)
+    file = tmp_path / "bushes.toml"
+    file.write_text('[dataset]\nmodel = "bush.l"\nsamples = 4\n[dataset.parameters]\nR = "0.3:0.6"\n'
+                    '[scan]\nat = [[3, 1, 0]]\nangle = 4\nformat = "csv"\n')
+    table = es.dataset(file, output=tmp_path / "set")
+    assert len(table) == 4 and table["R"].between(0.3, 0.6).all() and (table["points"] > 0).all()
+    assert table["split"].tolist() == es.dataset(file, output=tmp_path / "set")["split"].tolist()
+
+
 def test_a_sweep_is_a_table_with_a_row_a_run(tmp_path):
     file = tmp_path / "bush.l"
     file.write_text(BUSH)

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <sstream>
 
+namespace fs = std::filesystem;
 using Catch::Contains;
 using Catch::StartsWith;
 using nlohmann::json;

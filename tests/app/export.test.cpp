@@ -13,6 +13,8 @@
 #include <map>
 #include <sstream>
 
+using Catch::Contains;
+
 namespace {
 
 /// A folder with a run of five steps in it.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+namespace fs = std::filesystem;
 using Catch::Contains;
 using nlohmann::json;
 

@@ -324,3 +324,20 @@ TEST_CASE("render: a view file says from where, unless the camera is ours", "[re
     CHECK(as_author != drawn("--elevation 0"));
     CHECK(as_author != drawn("--background light"));
 }
+
+TEST_CASE("render: masks lie beside pictures, and films and sheets have none", "[render]") {
+    const RenderPlace place;
+    if (!place.grow()) return;
+    const Outcome outcome = place.run("render run --masks --size 32x24 --step 0:4:4 --output two.png");
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.out, Contains("two-0000.png\n") && Contains("two-0004-depth.npy\n") &&
+                                Contains("two-0004-organs.csv\n") && Contains("two-0004-camera.json\n"));
+    CHECK(place.bytes("two-0004-organ.npy").size() == 128 + 4 * 32 * 24);
+    CHECK(place.bytes("two-0004-plant.png").substr(1, 3) == "PNG");
+    for (const char* words : {"--sheet 2x2 --output x.png", "--output x.ogv"}) {
+        const Outcome wrong = place.run(std::string("render run --masks ") + words);
+        CHECK(wrong.code == 1);
+        CHECK_THAT(wrong.err, Contains("films and sheets have no masks"));
+    }
+}

@@ -30,7 +30,7 @@ TEST_CASE("scan writes points of a run, and refuses what no instrument is", "[ap
              {"scan run --at 1,2,3 --elevations 30", "expected LOW:HIGH"},
              {"scan run --fly=0,-1,0:1,-1,0", "above height 0"},
              {"scan run --eye 0,1,0 --target 0,1,0", "one place"},
-             {"scan run --at 1,2,3 --angle 0.001", "larger --angle"},
+             {"scan run --at 1,2,3 --angle 0.001", "larger angle"},
              {"scan run --at 1,2,3 --step all", "one frame"},
              {"scan none --at 1,2,3", "none"}}) {
         const Outcome wrong = place.run(words);

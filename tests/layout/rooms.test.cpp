@@ -142,6 +142,7 @@ const std::map<std::string, std::vector<Room>> stations{
          {"landscape", ""},
          {"scan", ""},
          {"sweep", ""},
+         {"dataset", "fit scan"},
      }},
     {"studio",
      {

@@ -19,7 +19,9 @@
 #include <vtkPolyData.h>
 
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <sstream>
 
 using namespace espalier;
 using namespace espalier::study;
@@ -251,4 +253,47 @@ TEST_CASE("a level leaf on the wall of a voxel is in one, and its area comes bac
     CHECK(found.real_area == Approx(1).epsilon(0.01));
     CHECK(found.unseen_area == 0);
     CHECK(found.estimated_area == Approx(1).epsilon(0.1));  // by beams that come nearly from above
+}
+
+TEST_CASE("columns of HELIOS++ are eleven numbers, and directions and times are those of the beams", "[scan]") {
+    const TemporaryFolder folder;
+    const ScannedPlants plants(drawn("[@M(0,1,0)&(90){.f(1).+(90)f(1).+(90)f(1).}]"), 8, 0);
+    FlyingScanner scanner{{-1, 20, 0}, {1, 20, 0}, 25, 8};
+    ScanOptions options;
+    options.pulse_rate = 1000;
+    options.divergence = 1, options.rays = 9, options.resolution = 2;  // at the edge leaf and ground are one return
+    const std::vector<Beam> beams = scanner.beams();
+    const std::vector<ScanPoint> points = scan(plants, beams, options);
+    PointFileOptions file;
+    file.columns = {"helios++"};
+    file.up = 'z';
+    write_points(points, plants, {{"leaf"}, {"F"}, 0}, file, folder.path() / "points.xyz");
+    std::istringstream lines(text_of(folder.path() / "points.xyz"));
+    std::size_t row = 0, mixed = 0;
+    for (std::string line; std::getline(lines, line); ++row) {
+        std::istringstream cells(line);
+        std::vector<double> numbers{std::istream_iterator<double>(cells), {}};
+        REQUIRE(numbers.size() == 11);
+        REQUIRE(numbers[2] == Approx(points[row].place.y));
+        // A metre between leaf and ground is 6.67 ns to and fro.
+        const double width = numbers[4] * 0.299792458 / 2;
+        REQUIRE(width < 1.02);
+        mixed += width > 0.98;
+        REQUIRE(numbers[5] == 1);
+        REQUIRE(numbers[6] == 1);
+        REQUIRE(numbers[10] == Approx(numbers[7] / 1000));
+    }
+    CHECK(row == points.size());
+    CHECK(mixed > 0);
+    file = {{"zenith", "azimuth"}, 'y'};
+    write_points(points, plants, {{"leaf"}, {"F"}, 0}, file, folder.path() / "angles.xyz");
+    std::istringstream angles(text_of(folder.path() / "angles.xyz"));
+    row = 0;
+    for (double zenith = 0, azimuth = 0; angles >> zenith >> azimuth; ++row) {
+        const glm::dvec3& beam = beams[points[row].beam].direction;
+        REQUIRE(std::cos(zenith * std::numbers::pi / 180) == Approx(beam.y).margin(1e-6));
+        REQUIRE(std::sin(zenith * std::numbers::pi / 180) * std::sin(azimuth * std::numbers::pi / 180) ==
+                Approx(beam.x).margin(1e-5));
+    }
+    CHECK(row == points.size());
 }

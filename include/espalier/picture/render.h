@@ -36,12 +36,20 @@ struct RenderJob {
     bool chooses_background = false;
     /// In a film, pictures between two frames that follow each other, in which the plants unfold.
     int between = 0;
+    /// Of pictures, not of films and sheets: files beside each that tell of every pixel how far away, how turned, and
+    /// which organ it is.
+    bool masks = false;
+    /// Several pictures of each frame: `camera` is at these azimuths, degrees, one after the other. Files of the second
+    /// frame's first are NAME-0012-0.png.
+    std::vector<double> azimuths{};
 };
 
 // Files appear complete or not at all; the same job gives the same pictures. All throw UserError for arrays and fields
 // that the run has not, RunError where nothing can be drawn or written.
 
-/// A PNG; of several frames one each, "NAME-0012.png" by its step. Returns the files.
+/// A PNG; of several frames one each, "NAME-0012.png" by its step. With `masks`, each is followed by NAME-depth.npy,
+/// NAME-normal.npy, NAME-organ.npy, NAME-plant.png, NAME-symbol.png, NAME-organs.csv and NAME-camera.json. Returns the
+/// files.
 std::vector<std::filesystem::path> render_pictures(const RenderJob& job, const std::filesystem::path& path);
 
 /// .ogv is written here, .mp4, .webm and .gif by ffmpeg, if it is in PATH. Throws UserError for other extensions.

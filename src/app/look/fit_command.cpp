@@ -12,6 +12,7 @@
 #include "base/folder.h"
 #include "base/json_text.h"
 #include "base/platform.h"
+#include "part_option.h"
 #include "picture_options.h"
 #include "study/fit/fit.h"
 #include "study/fit/unknowns.h"
@@ -52,18 +53,21 @@ private:
     std::chrono::steady_clock::time_point drawn_at_{};
 };
 
+constexpr const char* by_simulation = "By simulation (--method abc)";
+
 class Fit final : public Command {
 public:
     explicit Fit(CLI::App& program)
         : Command(program, "fit", "find parameters of a model or a scene from measurements"),
           sets_(app()),
           growth_(app()),
-          picture_(app()) {
+          picture_(app()),
+          part_(app(), "simulate", by_simulation) {
         app().add_option("what", file_, "a model, or a scene (.toml)")->required();
         app().add_option(
             "targets", targets_,
             "what was measured, one file or several: marks on a picture (.svg, .csv), traits or a course (.csv), "
-            "measured plants; default: those of the scene's [fit]");
+            "points of a scanner (.ply, .xyz, .csv, .toml), measured plants; default: those of the scene's [fit]");
         app()
             .add_option("--parameter", parameters_,
                         "what is sought: a #define, or a key of the scene: NAME, NAME=START, NAME=LOW:HIGH, "
@@ -80,7 +84,8 @@ public:
             ->capture_default_str();
         add_method_options();
         app().add_option("--output", output_, "folder for tables and charts; default with abc: output/<model>-fit");
-        app().add_option("--overlay", overlay_, "draw marks (red) and fitted model (blue) into this .svg");
+        app().add_option("--overlay", overlay_,
+                         "draw marks or points (red) and the fitted model (blue) into this .svg");
         app().add_flag("--quiet", quiet_, "print errors only");
         add_json_flag("print the result as JSON");
         app().footer(
@@ -91,6 +96,7 @@ docs/fitting.md shows each of them.
 Examples:
   espalier fit models/trees/ternary.l marks.svg --parameter ANGLE --parameter RATIO=0.7
   espalier fit fern.l fern.svg --overlay fitted.svg
+  espalier fit tree.l scan.ply --parameter ANGLE=10:60 --parameter RATIO=0.5:0.9
   espalier fit bush.l plants.csv --method abc --parameter ANGLE=10:60 --parameter RATE=log:0.01:1
   espalier fit stand.toml --method abc --generations 3 --output output/stand-fit
   espalier fit bush.l plants.csv --method abc --list 20 > commands        for a cluster: docs/fitting.md)");
@@ -99,7 +105,7 @@ Examples:
     int run() override {
         const study::FitTask task = task_of();
         if (task.growth.subject().is_scene()) ask_for_trust(task);
-        if (list_ > 0) return print_commands();
+        if (part_.wants_list()) return print_commands();
         const InterruptibleRun interruptible(quiet_);
         FitLine line(quiet_ || wants_json());
         const study::FitProgress progress = [&](const std::string& doing, std::size_t done, std::size_t all) {
@@ -121,7 +127,7 @@ Examples:
 
 private:
     void add_method_options() {
-        const char* const abc = "By simulation (--method abc)";
+        const char* const abc = by_simulation;
         app()
             .add_option(
                 "--worlds", squares_.worlds,
@@ -149,11 +155,6 @@ private:
             ->check(CLI::Range(1e-6, 1.0))
             ->capture_default_str()
             ->group(abc);
-        app()
-            .add_option("--list", list_, "print so many commands that simulate a part each, and do not fit")
-            ->check(CLI::Range(1, 100000))
-            ->group(abc);
-        app().add_option("--part", part_, "NUMBER/OF: simulate only this part")->group(abc);
     }
 
     bool wants_posterior() const { return method_ == "abc"; }
@@ -191,19 +192,12 @@ private:
     study::AbcFitOptions abc_options() const {
         study::AbcFitOptions options = abc_;
         options.folder = folder() / "simulations";
-        if (part_.empty()) return options;
-        const std::size_t slash = part_.find('/');
-        const auto number = whole_text_as<int>(part_.substr(0, slash));
-        const auto of = whole_text_as<int>(slash == part_.npos ? "" : part_.substr(slash + 1));
-        if (!number || !of || *number < 1 || *number > *of) {
-            throw UserError(fmt::format("--part {}: expected NUMBER/OF, such as 3/20", part_));
-        }
-        options.part = {static_cast<std::size_t>(*number - 1), static_cast<std::size_t>(*of)};
+        options.part = {part_.number(), part_.of()};
         return options;
     }
 
     int print_commands() const {
-        for (int part = 1; part <= list_; ++part) {
+        for (int part = 1; part <= part_.parts(); ++part) {
             std::vector<std::string> words{quoted(platform::program_file().string()), "fit", quoted(file_.string())};
             for (const fs::path& target : targets_) words.push_back(quoted(target.string()));
             const auto add = [&](const char* option, const std::string& value) {
@@ -218,7 +212,7 @@ private:
             if (growth_.trust()) words.emplace_back("--trust");
             add("--simulations", std::to_string(abc_.simulations));
             add("--output", folder().string());
-            add("--part", fmt::format("{}/{}", part, list_));
+            add("--part", fmt::format("{}/{}", part, part_.parts()));
             fmt::print("{} --method abc --quiet\n", fmt::join(words, " "));
         }
         return exit_code::done;
@@ -242,7 +236,7 @@ private:
             const std::string overlay = grown ? target->overlay(*grown) : "";
             if (!overlay.empty()) return write_text(overlay_, overlay);
         }
-        throw UserError("--overlay: no target is marks on a picture");
+        throw UserError("--overlay: no target is marks on a picture, or points");
     }
 
     std::string command(const study::FitTask& task, const study::FitResult& result) const {
@@ -319,10 +313,10 @@ private:
     fs::path file_, overlay_, output_;
     std::vector<fs::path> targets_;
     std::vector<std::string> parameters_, defines_;
-    std::string plant_, method_ = "least-squares", part_;
+    std::string plant_, method_ = "least-squares";
     study::LeastSquaresOptions squares_;
     study::AbcFitOptions abc_;
-    int list_ = 0;
+    PartOption part_;
     bool quiet_ = false;
 };
 

@@ -111,6 +111,7 @@ public:
   espalier render output/two-roots --field water:volume --elevation 5
   espalier render output/two-roots --field water:iso=0.28 --step 0:200:10 --output roots.png
   espalier render output/two-trees --light                                in the light of sun and sky
+  espalier render output/two-trees --masks --no-legend                    depth, normals and organs of the pixels, too
   espalier render output/two-trees --light --sun 150:25 --noise 0.01      the sun behind the trees, with little noise
 A recorded run is not grown again. A field must have been recorded ([timeline] fields). `espalier info RUN` lists the content of
 a run. docs/render.md shows examples.)");
@@ -168,6 +169,9 @@ private:
         app()
             .add_option("--rate", rate_, "pictures per second of a film; default: the film takes about 10 s")
             ->check(CLI::Range(0.1, 120.0));
+        app().add_flag(
+            "--masks", masks_,
+            "write, beside each picture, the depth, the normal and the organ of every pixel: docs/render.md");
     }
 
     void add_look_options() {
@@ -223,6 +227,7 @@ private:
         if (!step_.empty()) require_frame_option(step_);
         (void)axes_->bark();
         if (!sheet_.empty()) (void)sheet_cells();
+        require_masks(output_);
         if (!output_.empty()) {
             sheet_.empty() && is_film(output_) ? require_film_writer(output_) : require_png(output_);
         }
@@ -318,6 +323,8 @@ private:
     std::vector<fs::path> draw(RenderJob& job, const fs::path& output) const {
         const bool many = is_film(output) || !sheet_.empty();
         if (!sheet_.empty() || !is_film(output)) require_no_between(output);
+        require_masks(output);
+        job.masks = masks_;
         job.frames = chosen_frames(job.run, !step_.empty() ? step_ : many ? "all" : "last");
         if (!sheet_.empty()) {
             const PictureSize cells = sheet_cells();
@@ -349,6 +356,12 @@ private:
                                     between_, output.string()));
     }
 
+    void require_masks(const fs::path& output) const {
+        if (!masks_ || (sheet_.empty() && !is_film(output))) return;
+        throw UserError(
+            "--masks: films and sheets have no masks; --step all draws every frame as a picture of its own");
+    }
+
     void print_files(const std::vector<fs::path>& files) const {
         if (wants_json()) {
             nlohmann::ordered_json json = nlohmann::ordered_json::array();
@@ -376,7 +389,7 @@ private:
     bool ground_ = false;
     int frames_ = 0, between_ = 0;
     double rate_ = 0, orbit_ = 0;
-    bool follow_ = false, no_shade_ = false, no_legend_ = false, scale_bar_ = false, time_ = false;
+    bool follow_ = false, no_shade_ = false, no_legend_ = false, scale_bar_ = false, time_ = false, masks_ = false;
 };
 
 const RegisteredCommand<Render> render_entry{32};

@@ -15,22 +15,17 @@
 #include "picture_options.h"
 #include "study/scan/leaf_density.h"
 #include "study/scan/point_files.h"
+#include "study/scan/scan_plan.h"
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include <cmath>
-#include <numbers>
 #include <optional>
 
 namespace espalier::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// More would not fit into the memory of most machines.
-constexpr double most_beams = 200'000'000;
 
 /// "x,y,z" or "x,z" of an option.
 std::vector<double> numbers_of(const std::string& option, const std::string& text, std::size_t count) {
@@ -60,7 +55,8 @@ public:
             .add_option(
                 "--columns", points_.columns,
                 "columns of the points: x,y,z,distance,intensity,return,returns,beam,plant,organ,identity,symbol,"
-                "order,age; default: all that the format has")
+                "order,age, which are the default, echo_width,time,zenith,azimuth; or helios++, those of its .xyz "
+                "files")
             ->delimiter(',');
         app().add_option("--up", up_, "the axis that points upwards in the file")->check(CLI::IsMember({"y", "z"}));
         add_instruments();
@@ -164,6 +160,11 @@ private:
         add("--resolution", scan_.resolution, "distance below which two returns of a beam are one, m", 100);
         add("--distance-noise", scan_.distance_noise, "standard deviation of distances, m", 100);
         add("--angle-noise", scan_.angle_noise, "standard deviation of angles, degrees", 10);
+        app()
+            .add_option("--pulse-rate", scan_.pulse_rate, "beams a second, for the column time")
+            ->check(CLI::Range(1.0, 1e9))
+            ->capture_default_str()
+            ->group(beams);
         app().add_option("--seed", scan_.seed, "seed of the noise")->capture_default_str()->group(beams);
         app()
             .add_option("--sides", sides_, "corners around an internode")
@@ -192,8 +193,7 @@ private:
         }
         if (!path_.empty()) return flying_beams();
         if (!eye_.empty()) return camera_beams();
-        const double turns = (tripod_.last_azimuth - tripod_.first_azimuth) / tripod_.step;
-        require_few(static_cast<double>(places_.size()) * turns * (tripod_.highest - tripod_.lowest) / tripod_.step);
+        study::require_few_beams(static_cast<double>(places_.size()) * tripod_.expected_beams());
         std::vector<study::Beam> all;
         for (const std::string& place : places_) {
             tripod_.place = place_of("--at", place);
@@ -208,11 +208,9 @@ private:
         if (colon == path_.npos) throw UserError(fmt::format("--fly {}: expected X,Y,Z:X,Y,Z", path_));
         flying_.from = place_of("--fly", path_.substr(0, colon));
         flying_.to = place_of("--fly", path_.substr(colon + 1));
-        const double height = std::max(flying_.from.y, flying_.to.y);
         if (std::min(flying_.from.y, flying_.to.y) <= 0)
             throw UserError("--fly: a scanner that flies is above height 0");
-        const double width = 2 * height * std::tan(flying_.half_angle * std::numbers::pi / 180);
-        require_few(flying_.density * width * std::max(1.0, glm::distance(flying_.from, flying_.to)));
+        study::require_few_beams(flying_.expected_beams());
         return flying_.beams();
     }
 
@@ -223,16 +221,8 @@ private:
         if (camera_.eye == camera_.target) throw UserError("--eye and --target are one place");
         camera_.width = static_cast<std::size_t>(size.width);
         camera_.height = static_cast<std::size_t>(size.height);
-        require_few(static_cast<double>(size.width) * size.height);
+        study::require_few_beams(static_cast<double>(size.width) * size.height);
         return camera_.beams();
-    }
-
-    static void require_few(double beams) {
-        if (beams <= most_beams) return;
-        throw UserError(
-            fmt::format("{:.3g} beams are more than {:.0f}: take a larger --angle, fewer --pulses or a smaller "
-                        "--size",
-                        beams, most_beams));
     }
 
     static std::string table_of(const study::DensityResult& density) {

@@ -20,6 +20,22 @@ inline void intersect(RTCScene scene, RTCRayHit& ray) {
 #endif
 }
 
+/// The nearest hits of four rays that go about the same way.
+inline void intersect(RTCScene scene, RTCRayHit4& rays) {
+    alignas(16) const int valid[4] = {-1, -1, -1, -1};
+#if RTC_VERSION_MAJOR >= 4
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    rtcIntersect4(valid, scene, &rays, &arguments);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect4(valid, scene, &context, &rays);
+#endif
+}
+
 /// Whether a ray hits anything.
 inline bool is_occluded(RTCScene scene, RTCRay& ray) {
 #if RTC_VERSION_MAJOR >= 4

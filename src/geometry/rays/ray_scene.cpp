@@ -156,9 +156,32 @@ std::optional<RayScene::Hit> RayScene::first_hit(const glm::vec3& origin, const 
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     intersect(embree_->met, ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    const std::uint32_t instance = ray.hit.instID[0];
+    return hit_of(ray.hit.instID[0], ray.hit.primID, ray.ray.tfar, ray.hit.u, ray.hit.v);
+}
+
+RayScene::Hit RayScene::hit_of(std::uint32_t instance, std::uint32_t triangle, float distance, float u, float v) const {
     const auto [part, place] = embree_->instances[instance == RTC_INVALID_GEOMETRY_ID ? 0 : instance];
-    return Hit{part, ray.hit.primID, ray.ray.tfar, ray.hit.u, ray.hit.v, place};
+    return {part, triangle, distance, u, v, place};
+}
+
+RayScene::FourHits RayScene::first_hits(std::span<const glm::vec3, 4> origins, std::span<const glm::vec3, 4> directions,
+                                        float to) const {
+    FourHits hits;
+    if (embree_->instances.empty()) return hits;
+    RTCRayHit4 rays{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        rays.ray.org_x[i] = origins[i].x, rays.ray.org_y[i] = origins[i].y, rays.ray.org_z[i] = origins[i].z;
+        rays.ray.dir_x[i] = directions[i].x, rays.ray.dir_y[i] = directions[i].y, rays.ray.dir_z[i] = directions[i].z;
+        rays.ray.tfar[i] = to;
+        rays.ray.mask[i] = 0xFFFFFFFF;
+        rays.hit.geomID[i] = rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    intersect(embree_->met, rays);
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (rays.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+        hits[i] = hit_of(rays.hit.instID[0][i], rays.hit.primID[i], rays.ray.tfar[i], rays.hit.u[i], rays.hit.v[i]);
+    }
+    return hits;
 }
 
 bool RayScene::is_blocked(const glm::vec3& origin, const glm::vec3& direction, float from, float to) const {

@@ -4,6 +4,7 @@
 #include <glm/mat4x3.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -48,10 +49,16 @@ public:
     /// The nearest triangle from `from` to `to` along the ray, both in lengths of `direction`. Several threads may ask.
     /// The same on any processor.
     std::optional<Hit> first_hit(const glm::vec3& origin, const glm::vec3& direction, float from, float to) const;
+    /// The same of four rays beside each other, quicker; from their origins on.
+    using FourHits = std::array<std::optional<Hit>, 4>;
+    FourHits first_hits(std::span<const glm::vec3, 4> origins, std::span<const glm::vec3, 4> directions,
+                        float to) const;
     /// Whether there is one; quicker.
     bool is_blocked(const glm::vec3& origin, const glm::vec3& direction, float from, float to) const;
 
 private:
+    Hit hit_of(std::uint32_t instance, std::uint32_t triangle, float distance, float u, float v) const;
+
     struct Embree;
     std::unique_ptr<Embree> embree_;
 };

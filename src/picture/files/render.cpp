@@ -6,6 +6,7 @@
 #include "archive/unfolding.h"
 #include "picture/files/film.h"
 #include "picture/files/frame_painter.h"
+#include "picture/files/picture_masks.h"
 #include "picture/stage/colouring.h"
 #include "picture/stage/legend.h"
 #include "picture/stage/sky_visibility.h"
@@ -53,10 +54,10 @@ public:
     /// Those of the frames, and those between them.
     std::size_t pictures() const { return (job_.frames.size() - 1) * pictures_of_frame() + 1; }
 
-    vtkSmartPointer<vtkImageData> picture(std::size_t i) {
+    /// Seen from another azimuth, if there is one.
+    vtkSmartPointer<vtkImageData> picture(std::size_t i, std::optional<double> azimuth = {}) {
         const std::size_t frame = i / pictures_of_frame(), part = i % pictures_of_frame();
-        CameraPlace place = place_;
-        place.azimuth += turned(i);
+        const CameraPlace place = place_at(i, azimuth);
         vtkSmartPointer<vtkImageData> drawn;
         if (part == 0 && is_in_pieces(*job_.frames[frame])) {
             drawn = picture_of_pieces(*job_.frames[frame], place);
@@ -72,15 +73,31 @@ public:
         return drawn;
     }
 
+    /// Beside a picture of frame `i`. Returns the files.
+    std::vector<fs::path> write_masks_of(std::size_t i, std::optional<double> azimuth, const fs::path& picture) {
+        Stage& stage = painter_.stage();
+        if (is_in_pieces(*job_.frames[i])) show(*job_.frames[i]);  // rays need all plants at once
+        stage.place_camera(place_at(i, azimuth), job_.follow);
+        if (!mask_scene_) mask_scene_.emplace(stage);
+        return write_masks(mask_scene_->masks(job_.size), mask_scene_->organs(), job_.run, stage, picture);
+    }
+
     Stage& stage() { return painter_.stage(); }
 
 private:
+    CameraPlace place_at(std::size_t i, std::optional<double> azimuth) const {
+        CameraPlace place = place_;
+        place.azimuth = azimuth.value_or(place.azimuth) + turned(i);
+        return place;
+    }
+
     std::size_t pictures_of_frame() const { return static_cast<std::size_t>(job_.between) + 1; }
 
     void show(const RecordedFrame& frame) {
         Stage& stage = painter_.stage();
         if (!unfolding_ && stage.shown() && stage.shown()->step == frame.step) return;
         unfolding_.reset();
+        mask_scene_.reset();
         stage.show(frame);
     }
 
@@ -91,6 +108,7 @@ private:
     vtkSmartPointer<vtkImageData> picture_of_pieces(const RecordedFrame& frame, const CameraPlace& place) {
         Stage& stage = painter_.stage();
         unfolding_.reset();
+        mask_scene_.reset();
         if (!pieces_ || pieces_->step != frame.step) take_pieces(frame);
         for (const RecordedFrame& piece : pieces_->frames) {
             stage.show_piece(piece, pieces_->whole, pieces_->visibility ? &*pieces_->visibility : nullptr);
@@ -172,6 +190,7 @@ private:
     FramePainter painter_;
     CameraPlace place_;
     std::optional<Pieces> pieces_;
+    std::optional<MaskScene> mask_scene_;          ///< of what is shown
     std::optional<archive::Unfolding> unfolding_;  ///< while pictures between two frames are drawn
 };
 
@@ -240,9 +259,20 @@ std::vector<fs::path> render_pictures(const RenderJob& job, const fs::path& path
     stills.between = 0;
     JobPainter painter(stills);
     std::vector<fs::path> files;
-    for (std::size_t i = 0; i < job.frames.size(); ++i) {
-        files.push_back(job.frames.size() == 1 ? path : numbered(path, job.frames[i]->step));
-        write_png(files.back(), *painter.picture(i));
+    const std::size_t views = std::max<std::size_t>(1, job.azimuths.size());
+    for (std::size_t k = 0; k < views * job.frames.size(); ++k) {
+        const std::size_t i = k / views, view = k % views;
+        fs::path file = job.frames.size() == 1 ? path : numbered(path, job.frames[i]->step);
+        std::optional<double> azimuth;
+        if (!job.azimuths.empty()) {
+            azimuth = job.azimuths[view];
+            file = file.parent_path() / fmt::format("{}-{}{}", file.stem().string(), view, file.extension().string());
+        }
+        write_png(file, *painter.picture(i, azimuth));
+        files.push_back(file);
+        if (!job.masks) continue;
+        const std::vector<fs::path> masks = painter.write_masks_of(i, azimuth, file);
+        files.insert(files.end(), masks.begin(), masks.end());
     }
     return files;
 }

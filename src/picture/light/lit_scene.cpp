@@ -114,20 +114,33 @@ ThinOptics thin_optics(const glm::vec3& colour) {
 
 LitScene::LitScene(std::vector<LitPart> parts, const std::optional<LitGround>& ground)
     : parts_(std::move(parts)), ground_(ground) {
-    std::vector<std::vector<glm::vec3>> corners;
-    std::vector<geometry::RayScene::Part> rays;
+    std::vector<glm::vec3> corners;
     for (const LitPart& part : parts_) {
-        std::vector<glm::vec3>& of_part = corners.emplace_back();
+        first_triangles_.push_back(static_cast<std::uint32_t>(corners.size() / 3));
         for (const std::int32_t corner : part.corners) {
-            of_part.push_back(part.points[static_cast<std::size_t>(corner)]);
+            corners.push_back(part.points[static_cast<std::size_t>(corner)]);
             for (int k = 0; k < 3; ++k) {
-                if (std::isfinite(of_part.back()[k])) size_ = std::max(size_, std::abs(of_part.back()[k]));
+                if (std::isfinite(corners.back()[k])) size_ = std::max(size_, std::abs(corners.back()[k]));
             }
         }
         is_opaque_ = is_opaque_ && part.opacities.empty() && !part.texture;
     }
-    for (const auto& of_part : corners) rays.push_back({of_part, {moved_by(glm::vec3(0))}});
-    rays_.set_parts(rays);
+    // One part alone: rays need not look for it first.
+    const std::array all{geometry::RayScene::Part{corners, {moved_by(glm::vec3(0))}}};
+    rays_.set_parts(all);
+}
+
+std::optional<geometry::RayScene::Hit> LitScene::first_hit(const glm::vec3& origin, const glm::vec3& direction,
+                                                           float from, float to) const {
+    auto hit = rays_.first_hit(origin, direction, from, to);
+    if (hit) tell_part(*hit);
+    return hit;
+}
+
+void LitScene::tell_part(geometry::RayScene::Hit& hit) const {
+    const auto behind = std::upper_bound(first_triangles_.begin(), first_triangles_.end(), hit.triangle);
+    hit.part = static_cast<std::uint32_t>(behind - first_triangles_.begin() - 1);
+    hit.triangle -= first_triangles_[hit.part];
 }
 
 float LitScene::gap(const glm::vec3& point) const {
@@ -152,11 +165,12 @@ std::optional<LitSurface> LitScene::on_ground(const glm::vec3& origin, const glm
     return surface;
 }
 
-LitSurface LitScene::surface(const geometry::RayScene::Hit& hit, const glm::vec3& direction) const {
+LitSurface LitScene::bare_surface(const geometry::RayScene::Hit& hit, const glm::vec3& direction) const {
     const LitPart& part = parts_[hit.part];
-    const std::array<std::size_t, 3> at = corners_of(part, hit.triangle);
-    const auto [a, b, c] = at;
+    const auto [a, b, c] = corners_of(part, hit.triangle);
     LitSurface surface{};
+    surface.part = hit.part;
+    surface.triangle = hit.triangle;
     surface.distance = hit.distance;
     surface.point = within(hit, part.points[a], part.points[b], part.points[c]);
     surface.flat = glm::cross(part.points[b] - part.points[a], part.points[c] - part.points[a]);
@@ -165,12 +179,20 @@ LitSurface LitScene::surface(const geometry::RayScene::Hit& hit, const glm::vec3
     surface.normal = within(hit, part.normals[a], part.normals[b], part.normals[c]);
     if (!(glm::length(surface.normal) > 0.1F)) surface.normal = surface.flat;
     if (glm::dot(surface.flat, direction) > 0) surface.flat = -surface.flat;
-    const float side = glm::dot(surface.normal, surface.flat) < 0 ? -1.0F : 1.0F;
-    surface.normal = glm::normalize(side * surface.normal);
-    if (!part.is_thin) surface.point = smooth_point(part, at, hit, surface.point, side);
-    glm::vec3 colour = within(hit, linear_of(part.colours[a]), linear_of(part.colours[b]), linear_of(part.colours[c]));
+    surface.side = glm::dot(surface.normal, surface.flat) < 0 ? -1.0F : 1.0F;
+    surface.normal = glm::normalize(surface.side * surface.normal);
     surface.opacity =
         part.opacities.empty() ? 1.0F : within(hit, part.opacities[a], part.opacities[b], part.opacities[c]);
+    return surface;
+}
+
+LitSurface LitScene::surface(const geometry::RayScene::Hit& hit, const glm::vec3& direction) const {
+    const LitPart& part = parts_[hit.part];
+    const std::array<std::size_t, 3> at = corners_of(part, hit.triangle);
+    const auto [a, b, c] = at;
+    LitSurface surface = bare_surface(hit, direction);
+    if (!part.is_thin) surface.point = smooth_point(part, at, hit, surface.point, surface.side);
+    glm::vec3 colour = within(hit, linear_of(part.colours[a]), linear_of(part.colours[b]), linear_of(part.colours[c]));
     if (part.texture || part.relief) {
         const glm::vec2 uv = within(hit, part.uvs[a], part.uvs[b], part.uvs[c]);
         if (part.texture) {
@@ -193,9 +215,38 @@ LitSurface LitScene::surface(const geometry::RayScene::Hit& hit, const glm::vec3
     return surface;
 }
 
+std::optional<LitSurface> LitScene::met(const glm::vec3& origin, const glm::vec3& direction, float from) const {
+    const std::optional<LitSurface> ground = on_ground(origin, direction, from);
+    const auto hit = first_hit(origin, direction, from, ground ? ground->distance : furthest);
+    return hit ? std::optional(uncoloured(*hit, direction)) : ground;
+}
+
+LitScene::FourSurfaces LitScene::met(std::span<const glm::vec3, 4> origins,
+                                     std::span<const glm::vec3, 4> directions) const {
+    auto hits = rays_.first_hits(origins, directions, furthest);
+    FourSurfaces surfaces;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        surfaces[i] = on_ground(origins[i], directions[i], 0);
+        if (!hits[i] || (surfaces[i] && surfaces[i]->distance < hits[i]->distance)) continue;
+        tell_part(*hits[i]);
+        surfaces[i] = uncoloured(*hits[i], directions[i]);
+    }
+    return surfaces;
+}
+
+LitSurface LitScene::uncoloured(const geometry::RayScene::Hit& hit, const glm::vec3& direction) const {
+    LitSurface surface = bare_surface(hit, direction);
+    const LitPart& part = parts_[hit.part];
+    if (part.texture) {
+        const auto [a, b, c] = corners_of(part, hit.triangle);
+        surface.opacity *= part.texture->at(within(hit, part.uvs[a], part.uvs[b], part.uvs[c]), false).w;
+    }
+    return surface;
+}
+
 std::optional<LitSurface> LitScene::seen(const glm::vec3& origin, const glm::vec3& direction, float from) const {
     const std::optional<LitSurface> ground = on_ground(origin, direction, from);
-    const auto hit = rays_.first_hit(origin, direction, from, ground ? ground->distance : furthest);
+    const auto hit = first_hit(origin, direction, from, ground ? ground->distance : furthest);
     return hit ? std::optional(surface(*hit, direction)) : ground;
 }
 
@@ -205,7 +256,7 @@ float LitScene::clearness(const glm::vec3& origin, const glm::vec3& direction) c
     constexpr int most_layers = 64;
     float clear = 1;
     for (int layer = 0; layer < most_layers && clear > 0; ++layer) {
-        const auto hit = rays_.first_hit(origin, direction, from, furthest);
+        const auto hit = first_hit(origin, direction, from, furthest);
         if (!hit) return clear;
         clear *= 1 - surface(*hit, direction).opacity;
         from = hit->distance + gap(origin + hit->distance * direction);

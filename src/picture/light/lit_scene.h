@@ -57,9 +57,11 @@ struct LitSurface {
     glm::vec3 flat;    ///< normal of the triangle, on the side of the ray
     glm::vec3 normal;  ///< normal of the smooth surface, on that side
     glm::vec3 reflectance, transmittance{0}, emission{0};
+    float side = 1;  ///< -1: the normals of the mesh point to the other side
     float opacity = 1;
     float distance = 0;
     bool is_ground = false;
+    std::uint32_t part = 0, triangle = 0;  ///< where it is no ground
 };
 
 class LitScene {
@@ -69,6 +71,11 @@ public:
 
     /// The nearest surface, opaque or not, further away than `from`.
     std::optional<LitSurface> seen(const glm::vec3& origin, const glm::vec3& direction, float from) const;
+    /// The same without colours and relief.
+    std::optional<LitSurface> met(const glm::vec3& origin, const glm::vec3& direction, float from) const;
+    /// met() of four rays beside each other, quicker; from their origins on.
+    using FourSurfaces = std::array<std::optional<LitSurface>, 4>;
+    FourSurfaces met(std::span<const glm::vec3, 4> origins, std::span<const glm::vec3, 4> directions) const;
     /// The share of light that comes straight through.
     float clearness(const glm::vec3& origin, const glm::vec3& direction) const;
     /// How far rays leave a point before they may meet something: surfaces do not meet themselves.
@@ -77,10 +84,18 @@ public:
     const std::optional<LitGround>& ground() const { return ground_; }
 
 private:
+    /// The triangle counts from the first of its part.
+    void tell_part(geometry::RayScene::Hit& hit) const;
+    std::optional<geometry::RayScene::Hit> first_hit(const glm::vec3& origin, const glm::vec3& direction, float from,
+                                                     float to) const;
     LitSurface surface(const geometry::RayScene::Hit& hit, const glm::vec3& direction) const;
+    LitSurface uncoloured(const geometry::RayScene::Hit& hit, const glm::vec3& direction) const;
+    /// Without colours, texture and relief.
+    LitSurface bare_surface(const geometry::RayScene::Hit& hit, const glm::vec3& direction) const;
     std::optional<LitSurface> on_ground(const glm::vec3& origin, const glm::vec3& direction, float from) const;
 
     std::vector<LitPart> parts_;
+    std::vector<std::uint32_t> first_triangles_;  ///< of each part
     std::optional<LitGround> ground_;
     geometry::RayScene rays_;
     bool is_opaque_ = true;

@@ -45,6 +45,10 @@ constexpr Rgb bright{255, 60, 0}, ink{30, 30, 30}, chalk{235, 235, 235};
 constexpr std::size_t most_labels = 300;
 const std::string none;
 
+double diagonal(const Box& box) {
+    return box.empty() ? 1 : std::max(glm::length(box.upper - box.lower), 1e-9);
+}
+
 /// Also with what thickness its organs have.
 bool is_flat_box(const Box& box) {
     if (box.empty()) return false;
@@ -133,6 +137,7 @@ public:
     std::shared_ptr<const FrameGeometry> load(const RecordedFrame& frame) const {
         const bool is_here = frame_ && frame_->plants == frame.plants && !frame.plants.empty();
         if (is_here && style_.bark.empty()) return geometry_;
+        if (frame.geometry) return frame.geometry;
         if (frame.plants.empty()) return std::make_shared<FrameGeometry>();
         return std::make_shared<FrameGeometry>(run_->geometry(frame));
     }
@@ -189,6 +194,8 @@ public:
                        static_cast<std::uint8_t>(blue)};
         return LitGround{disc->middle, disc->radius, goes_on ? open_ground : linear_of(soil), !goes_on};
     }
+
+    bool shows_roots() const { return (survey_ && !survey_->box.empty() ? *survey_ : here_).has_roots_to_see(); }
 
     void clear_for_light(double grey) {
         renderer_->SetBackground(grey, grey, grey);
@@ -249,16 +256,10 @@ private:
         show_highlight();
     }
 
-    double size() const {
-        const Box& box = here_.box;
-        return box.empty() ? 1 : std::max(glm::length(box.upper - box.lower), 1e-9);
-    }
+    double size() const { return diagonal(here_.box); }
 
     /// Returns the size of all that the camera frames: lines without radius keep their width from frame to frame.
-    double framed_size() const {
-        const Box& box = survey_ && !survey_->box.empty() ? survey_->box : here_.box;
-        return box.empty() ? 1 : std::max(glm::length(box.upper - box.lower), 1e-9);
-    }
+    double framed_size() const { return diagonal(survey_ && !survey_->box.empty() ? survey_->box : here_.box); }
 
     void build_meshes() {
         StageMeshOptions options;
@@ -349,9 +350,8 @@ private:
     void add_ground(const SkyVisibility* visibility) {
         const auto disc = ground_disc();
         if (!disc) return;
-        const StageSurvey& seen = survey_ && !survey_->box.empty() ? *survey_ : here_;
-        const float opacity = seen.has_roots_to_see() ? clear_ground : 1;
-        others_.push_back(ground_actor(disc->middle, disc->radius, visibility, style_.background, opacity));
+        others_.push_back(
+            ground_actor(disc->middle, disc->radius, visibility, style_.background, shows_roots() ? clear_ground : 1));
         renderer_->AddViewProp(others_.back());
     }
 
@@ -531,6 +531,16 @@ std::vector<LitPart> Stage::lit_parts() const {
 
 std::optional<LitGround> Stage::lit_ground() const {
     return body_->lit_ground();
+}
+
+std::optional<LitGround> Stage::hiding_ground() const {
+    return !body_->style_.light && body_->shows_roots() ? std::nullopt : lit_ground();
+}
+
+std::optional<Stage::LitRow> Stage::row_of_lit(std::size_t part, std::size_t triangle) const {
+    if (part >= body_->parts_.size()) return std::nullopt;
+    const StageMesh& mesh = body_->parts_[part].mesh;
+    return LitRow{mesh.row_of_triangle[triangle], mesh.is_of_axes};
 }
 
 void Stage::clear_for_light(double grey) {

@@ -106,6 +106,14 @@ public:
     /// What stands in the light of a style with `light`, and the ground under it, until something else is shown.
     std::vector<LitPart> lit_parts() const;
     std::optional<LitGround> lit_ground() const;
+    /// The same where it hides what is below: roots are seen through the ground of a style without `light`.
+    std::optional<LitGround> hiding_ground() const;
+    /// The row behind a triangle of lit_parts(): of `of_points` or of `of_cells`. None: of the background scene.
+    struct LitRow {
+        std::size_t row;
+        bool of_points;
+    };
+    std::optional<LitRow> row_of_lit(std::size_t part, std::size_t triangle) const;
     /// Paints all that such a picture shows in one grey, 0 to 1: the background, and behind fields the plants. Between
     /// 0 and 1, a pixel differs by the share of the picture that is seen through fields, labels and legend.
     void clear_for_light(double grey);

@@ -34,6 +34,11 @@ std::vector<Beam> TripodScanner::beams() const {
     return all;
 }
 
+double FlyingScanner::expected_beams() const {
+    const double width = 2 * std::max(from.y, to.y) * std::tan(glm::radians(half_angle));
+    return density * width * std::max(1.0, glm::distance(from, to));
+}
+
 std::vector<Beam> FlyingScanner::beams() const {
     std::vector<Beam> all;
     const double spacing = 1 / std::sqrt(density);

@@ -19,6 +19,8 @@ struct TripodScanner {
     double lowest = -60, highest = 90;                ///< elevations
     double first_azimuth = -180, last_azimuth = 180;  ///< from the direction -z, towards +x
 
+    /// About how many beams() makes.
+    double expected_beams() const { return (last_azimuth - first_azimuth) / step * ((highest - lowest) / step + 1); }
     std::vector<Beam> beams() const;
 };
 
@@ -28,6 +30,7 @@ struct FlyingScanner {
     double density = 10;     ///< beams per m2 of level ground at height 0
     double half_angle = 20;  ///< degrees, to each side
 
+    double expected_beams() const;
     std::vector<Beam> beams() const;
 };
 

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <array>
@@ -20,7 +21,7 @@ namespace espalier::study {
 namespace {
 
 /// The number that a column has of a point.
-using Value = double (*)(const ScanPoint&, const ScannedOrgan*, const PointNames&);
+using Value = double (*)(const ScanPoint&, const archive::FrameOrgan*, const PointNames&);
 struct PointColumn {
     const char* name;
     Value value;
@@ -29,40 +30,66 @@ struct PointColumn {
 constexpr double none = -1;  // of the ground
 
 const std::array all_columns{
-    PointColumn{"x", [](const ScanPoint& p, const ScannedOrgan*, const PointNames&) { return p.place.x; }},
-    PointColumn{"y", [](const ScanPoint& p, const ScannedOrgan*, const PointNames&) { return p.place.y; }},
-    PointColumn{"z", [](const ScanPoint& p, const ScannedOrgan*, const PointNames&) { return p.place.z; }},
+    PointColumn{"x", [](const ScanPoint& p, const archive::FrameOrgan*, const PointNames&) { return p.place.x; }},
+    PointColumn{"y", [](const ScanPoint& p, const archive::FrameOrgan*, const PointNames&) { return p.place.y; }},
+    PointColumn{"z", [](const ScanPoint& p, const archive::FrameOrgan*, const PointNames&) { return p.place.z; }},
     PointColumn{"distance",
-                [](const ScanPoint& p, const ScannedOrgan*, const PointNames&) { return double{p.distance}; }},
+                [](const ScanPoint& p, const archive::FrameOrgan*, const PointNames&) { return double{p.distance}; }},
     PointColumn{"intensity",
-                [](const ScanPoint& p, const ScannedOrgan*, const PointNames&) { return double{p.intensity}; }},
-    PointColumn{"return", [](const ScanPoint& p, const ScannedOrgan*, const PointNames&) { return double(p.number); }},
-    PointColumn{"returns", [](const ScanPoint& p, const ScannedOrgan*, const PointNames&) { return double(p.of); }},
-    PointColumn{"beam",
-                [](const ScanPoint& p, const ScannedOrgan*, const PointNames&) { return static_cast<double>(p.beam); }},
-    PointColumn{"plant",
-                [](const ScanPoint&, const ScannedOrgan* of, const PointNames&) { return of ? of->plant : none; }},
-    PointColumn{"organ", [](const ScanPoint&, const ScannedOrgan* of,
-                            const PointNames&) { return of ? double(of->number) : none; }},
+                [](const ScanPoint& p, const archive::FrameOrgan*, const PointNames&) { return double{p.intensity}; }},
+    PointColumn{"return",
+                [](const ScanPoint& p, const archive::FrameOrgan*, const PointNames&) { return double(p.number); }},
+    PointColumn{"returns",
+                [](const ScanPoint& p, const archive::FrameOrgan*, const PointNames&) { return double(p.of); }},
+    PointColumn{"beam", [](const ScanPoint& p, const archive::FrameOrgan*,
+                           const PointNames&) { return static_cast<double>(p.beam); }},
+    PointColumn{"plant", [](const ScanPoint&, const archive::FrameOrgan* of,
+                            const PointNames&) { return of ? of->plant : none; }},
+    PointColumn{"organ", [](const ScanPoint& p, const archive::FrameOrgan*,
+                            const PointNames&) { return p.organ ? static_cast<double>(*p.organ) : none; }},
     PointColumn{"identity",  // 64 bits, of which only text has all
-                [](const ScanPoint&, const ScannedOrgan* of, const PointNames&) {
+                [](const ScanPoint&, const archive::FrameOrgan* of, const PointNames&) {
                     return of ? static_cast<double>(of->identity) : none;
                 }},
-    PointColumn{"symbol",
-                [](const ScanPoint&, const ScannedOrgan* of, const PointNames&) { return of ? of->symbol : none; }},
-    PointColumn{"order",
-                [](const ScanPoint&, const ScannedOrgan* of, const PointNames&) { return of ? of->order : none; }},
-    PointColumn{"age", [](const ScanPoint&, const ScannedOrgan* of,
+    PointColumn{"symbol", [](const ScanPoint&, const archive::FrameOrgan* of,
+                             const PointNames&) { return of ? of->symbol : none; }},
+    PointColumn{"order", [](const ScanPoint&, const archive::FrameOrgan* of,
+                            const PointNames&) { return of ? of->order : none; }},
+    PointColumn{"age", [](const ScanPoint&, const archive::FrameOrgan* of,
                           const PointNames& names) { return of ? double(names.step - of->birth) : none; }},
+    PointColumn{"echo_width",  // ns that light needs to and fro
+                [](const ScanPoint& p, const archive::FrameOrgan*, const PointNames&) {
+                    constexpr double metres_per_nanosecond = 0.299792458;
+                    return 2 * p.depth / metres_per_nanosecond;
+                }},
+    PointColumn{"time", [](const ScanPoint& p, const archive::FrameOrgan*, const PointNames&) { return p.time; }},
+    PointColumn{"zenith",  // degrees
+                [](const ScanPoint& p, const archive::FrameOrgan*, const PointNames&) {
+                    return glm::degrees(std::acos(std::clamp(double{p.direction.y}, -1.0, 1.0)));
+                }},
+    PointColumn{"azimuth",  // degrees from -z towards +x
+                [](const ScanPoint& p, const archive::FrameOrgan*, const PointNames&) {
+                    return glm::degrees(std::atan2(double{p.direction.x}, -double{p.direction.z}));
+                }},
 };
+
+// Of all columns, those that every file has unless others are asked for.
+constexpr std::size_t usual_columns = 14;
+
+/// What HELIOS++ writes into its .xyz files (Winiwarter et al. 2022): X, Y, Z, intensity, echo width, return number,
+/// number of returns, index of the pulse, object, class, time.
+const std::vector<std::string> helios_columns{"x",       "y",    "z",     "intensity", "echo_width", "return",
+                                              "returns", "beam", "plant", "symbol",    "time"};
 
 /// `is_text`: the file has texts and whole numbers of any size.
 std::vector<const PointColumn*> chosen(const PointFileOptions& options, bool is_text) {
     std::vector<std::string> names = options.columns;
     if (names.empty()) {
         names = point_columns();
+        names.resize(usual_columns);
         if (!is_text) std::erase(names, "identity");
     }
+    if (names == std::vector<std::string>{"helios++"}) names = helios_columns;
     std::vector<const PointColumn*> found;
     for (const std::string& name : names) {
         const auto column = std::find_if(all_columns.begin(), all_columns.end(),
@@ -89,7 +116,7 @@ void for_each_point(std::span<const ScanPoint> points, const ScannedPlants& plan
 }
 
 /// Identities need all their digits, the texts of symbols and plants stand for their numbers in tables.
-std::string cell(const PointColumn& column, const ScanPoint& point, const ScannedOrgan* organ,
+std::string cell(const PointColumn& column, const ScanPoint& point, const archive::FrameOrgan* organ,
                  const PointNames& names) {
     const std::string_view name = column.name;
     if (organ && name == "identity") return std::to_string(organ->identity);
@@ -107,7 +134,7 @@ std::string table(std::span<const ScanPoint> points, const ScannedPlants& plants
         if (is_csv) text.append(text.empty() ? "" : ",").append(column->name);
     }
     if (is_csv) text += '\n';
-    for_each_point(points, plants, options.up, [&](const ScanPoint& point, const ScannedOrgan* organ) {
+    for_each_point(points, plants, options.up, [&](const ScanPoint& point, const archive::FrameOrgan* organ) {
         for (std::size_t i = 0; i < columns.size(); ++i) {
             if (i > 0) text += is_csv ? ',' : ' ';
             text +=
@@ -125,7 +152,7 @@ std::string ply(std::span<const ScanPoint> points, const ScannedPlants& plants, 
         "ply\nformat binary_little_endian 1.0\ncomment made by espalier; metres\nelement vertex {}\n", points.size());
     for (const PointColumn* column : columns) bytes += fmt::format("property double {}\n", column->name);
     bytes += "end_header\n";
-    for_each_point(points, plants, options.up, [&](const ScanPoint& point, const ScannedOrgan* organ) {
+    for_each_point(points, plants, options.up, [&](const ScanPoint& point, const archive::FrameOrgan* organ) {
         for (const PointColumn* column : columns) formats::append_bytes(bytes, column->value(point, organ, names));
     });
     return bytes;
@@ -139,7 +166,7 @@ void write_vtp(std::span<const ScanPoint> points, const ScannedPlants& plants, c
     std::erase_if(columns, [](const PointColumn* column) { return column->name[1] == '\0'; });  // x, y, z
     std::vector<Column<double>> values(columns.size());
     Column<std::int32_t> connectivity, ends;
-    for_each_point(points, plants, options.up, [&](const ScanPoint& point, const ScannedOrgan* organ) {
+    for_each_point(points, plants, options.up, [&](const ScanPoint& point, const archive::FrameOrgan* organ) {
         for (int axis = 0; axis < 3; ++axis) places.push_back(static_cast<float>(point.place[axis]));
         for (std::size_t i = 0; i < columns.size(); ++i) values[i].push_back(columns[i]->value(point, organ, names));
         connectivity.push_back(static_cast<std::int32_t>(connectivity.size()));

@@ -16,12 +16,13 @@ struct PointNames {
     int step = 0;                              ///< of the frame: age is counted from there
 };
 
-/// x, y, z (m), distance (m), intensity, return, returns, beam, plant, organ (identity), symbol, order, age (steps).
-/// Points of the ground have the plant -1.
+/// x, y, z (m), distance (m), intensity, return, returns, beam, plant, organ (identity), symbol, order, age (steps);
+/// and, where they are asked for, echo_width (ns), time (s), zenith and azimuth (degrees) of the beam. Points of the
+/// ground have the plant -1.
 const std::vector<std::string>& point_columns();
 
 struct PointFileOptions {
-    std::vector<std::string> columns;  ///< empty: all
+    std::vector<std::string> columns;  ///< empty: the usual ones; "helios++" alone: those of that program
     char up = 'y';                     ///< or 'z'
 };
 

@@ -29,7 +29,8 @@ glm::dvec3 ray_of_cone(const glm::dvec3& direction, double half_angle, int ray, 
 /// Rays of a beam that met something at about one distance.
 struct Return {
     double distance = 0;  ///< sum of distances
-    double facing = 0;    ///< sum of cosines
+    float nearest = 0, farthest = 0;
+    double facing = 0;  ///< sum of cosines
     int rays = 0;
     std::map<std::size_t, int> organs;  ///< rays that met each; the ground is the last number
 };
@@ -41,9 +42,10 @@ std::vector<Return> returns_of(std::vector<Touch>& touches, double resolution) {
     std::vector<Return> returns;
     double last = -std::numeric_limits<double>::infinity();
     for (const Touch& touch : touches) {
-        if (touch.distance - last > resolution) returns.emplace_back();
+        if (touch.distance - last > resolution) returns.emplace_back().nearest = touch.distance;
         last = touch.distance;
         Return& current = returns.back();
+        current.farthest = touch.distance;
         current.distance += touch.distance;
         current.facing += touch.facing;
         ++current.rays;
@@ -78,6 +80,8 @@ public:
             point.distance = static_cast<float>(distance);
             point.place = beam.origin + believed * distance;
             point.beam = number;
+            point.time = static_cast<double>(number) / options_.pulse_rate;
+            point.direction = glm::vec3(believed);
             point.number = static_cast<std::uint16_t>(i + 1);
             point.of = static_cast<std::uint16_t>(returns.size());
         }
@@ -97,6 +101,7 @@ private:
                                            [](const auto& a, const auto& b) { return a.second < b.second; });
         ScanPoint point;
         point.distance = static_cast<float>(met.distance / met.rays);
+        point.depth = met.farthest - met.nearest;
         point.intensity = static_cast<float>(met.facing / options_.rays);
         if (most->first != std::size_t(-1)) point.organ = most->first;
         return point;

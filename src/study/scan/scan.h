@@ -20,6 +20,7 @@ struct ScanOptions {
     double distance_noise = 0;  ///< standard deviation, m
     double angle_noise = 0;     ///< standard deviation, degrees
     std::uint64_t seed = 0;
+    double pulse_rate = 300'000;  ///< beams a second; changes nothing but the times of points
 };
 
 struct ScanPoint {
@@ -27,6 +28,9 @@ struct ScanPoint {
     std::size_t beam = 0;
     std::uint16_t number = 1, of = 1;  ///< of the returns of its beam
     float distance = 0;                ///< m, as measured
+    float depth = 0;                   ///< m between the nearest and the farthest ray of it
+    double time = 0;                   ///< s, of its beam
+    glm::vec3 direction{0};            ///< in which the instrument takes the beam to go
     float intensity = 0;               ///< share of the beam that met it, times the cosine of its angle
     std::optional<std::size_t> organ;  ///< none: the ground
 };

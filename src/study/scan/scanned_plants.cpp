@@ -16,16 +16,6 @@
 namespace espalier::study {
 namespace {
 
-ScannedOrgan organ_of(std::size_t number, const FrameAttributes& of, std::size_t row, bool is_leaf) {
-    return {static_cast<std::uint32_t>(number),
-            of.plants[row],
-            of.identities[row],
-            of.symbols[row],
-            of.orders[row],
-            of.births[row],
-            is_leaf};
-}
-
 /// Corners of a ring about an axis.
 std::vector<glm::vec3> ring(const glm::vec3& middle, const glm::vec3& axis, float radius, int sides) {
     const glm::vec3 x(geometry::any_across(axis)), y = glm::cross(axis, x);
@@ -40,8 +30,10 @@ std::vector<glm::vec3> ring(const glm::vec3& middle, const glm::vec3& axis, floa
 }  // namespace
 
 ScannedPlants::ScannedPlants(const FrameGeometry& geometry, int sides, std::optional<double> ground) : ground_(ground) {
-    add_internodes(geometry, sides);
-    add_surfaces(geometry);
+    const archive::FrameOrgans organs(geometry);
+    organs_ = organs.all();
+    add_internodes(geometry, organs, sides);
+    add_surfaces(geometry, organs);
     if (!corners_.empty()) lowest_ = highest_ = corners_.front();
     for (const glm::vec3& corner : corners_) {
         lowest_ = glm::min(lowest_, corner);
@@ -51,43 +43,44 @@ ScannedPlants::ScannedPlants(const FrameGeometry& geometry, int sides, std::opti
     rays_.set_parts(parts);
 }
 
-void ScannedPlants::add(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+void ScannedPlants::add(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, std::uint32_t organ) {
     if (!(glm::length(glm::cross(b - a, c - a)) > 0)) return;
     corners_.insert(corners_.end(), {a, b, c});
-    organ_of_triangle_.push_back(static_cast<std::uint32_t>(organs_.size() - 1));
+    organ_of_triangle_.push_back(organ);
 }
 
-void ScannedPlants::add_internodes(const FrameGeometry& geometry, int sides) {
+void ScannedPlants::add_internodes(const FrameGeometry& geometry, const archive::FrameOrgans& organs, int sides) {
     const float thinnest = archive::thinnest_radius(geometry);
     for (const FrameInternode& internode : internodes_of(geometry)) {
         const glm::vec3 along = internode.tip - internode.base;
         if (!(glm::length(along) > 0)) continue;
-        organs_.push_back(organ_of(organs_.size(), geometry.of_points, internode.tip_point.row(), false));
+        const std::uint32_t organ = *organs.of_point(internode.tip_point.row());
         const auto radius = [&](float given) { return given > 0 ? given : thinnest; };
         const auto below = ring(internode.base, glm::normalize(along), radius(internode.base_radius), sides);
         const auto above = ring(internode.tip, glm::normalize(along), radius(internode.tip_radius), sides);
         for (std::size_t i = 0; i < below.size(); ++i) {
             const std::size_t next = (i + 1) % below.size();
-            add(below[i], below[next], above[i]);
-            add(above[i], below[next], above[next]);
-            add(internode.base, below[next], below[i]);
-            add(internode.tip, above[i], above[next]);
+            add(below[i], below[next], above[i], organ);
+            add(above[i], below[next], above[next], organ);
+            add(internode.base, below[next], below[i], organ);
+            add(internode.tip, above[i], above[next], organ);
         }
     }
 }
 
-void ScannedPlants::add_surfaces(const FrameGeometry& geometry) {
+void ScannedPlants::add_surfaces(const FrameGeometry& geometry, const archive::FrameOrgans& organs) {
     const FrameMesh mesh = archive::surfaces_of(geometry, {});
-    std::map<std::pair<std::uint32_t, std::uint64_t>, std::size_t> rows;
-    const FrameAttributes& of = geometry.of_cells;
-    for (std::size_t row = 0; row < of.size(); ++row) rows.emplace(std::pair(of.plants[row], of.identities[row]), row);
+    std::map<std::pair<std::uint32_t, std::uint64_t>, std::uint32_t> numbers;
+    for (std::uint32_t i = 0; i < organs.all().size(); ++i) {
+        const archive::FrameOrgan& organ = organs.all()[i];
+        if (organ.is_leaf) numbers.emplace(std::pair(organ.plant, organ.identity), i);
+    }
     for (const MeshPart& part : mesh.parts) {
-        const auto row = rows.find({part.plant, part.identity});
-        if (row == rows.end()) continue;
-        organs_.push_back(organ_of(organs_.size(), of, row->second, true));
+        const auto number = numbers.find({part.plant, part.identity});
+        if (number == numbers.end()) continue;
         for (std::size_t i = part.first_triangle; i < part.first_triangle + part.triangles; ++i) {
             const auto& [a, b, c] = mesh.triangles[i];
-            add(mesh.points[a], mesh.points[b], mesh.points[c]);
+            add(mesh.points[a], mesh.points[b], mesh.points[c], number->second);
         }
     }
 }

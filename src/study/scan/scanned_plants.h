@@ -3,6 +3,7 @@
 
 #include "espalier/archive/recorded_run.h"
 
+#include "archive/frame_organs.h"
 #include "geometry/rays/ray_scene.h"
 
 #include <cstdint>
@@ -10,16 +11,6 @@
 #include <vector>
 
 namespace espalier::study {
-
-/// An internode or an organ.
-struct ScannedOrgan {
-    std::uint32_t number = 0;  ///< among those of the scan
-    std::uint32_t plant = 0;
-    std::uint64_t identity = 0;
-    std::uint16_t symbol = 0, order = 0;  ///< the symbol as the frame numbers it
-    std::int32_t birth = 0;               ///< step
-    bool is_leaf = false;                 ///< a polygon, patch or other surface; else a piece of an axis
-};
 
 /// Where a beam meets an organ, or the ground.
 struct Touch {
@@ -37,7 +28,8 @@ public:
     /// The nearest within `range`, m, along a direction of length 1. Several threads may ask.
     std::optional<Touch> touch(const glm::vec3& origin, const glm::vec3& direction, float range) const;
 
-    const std::vector<ScannedOrgan>& organs() const { return organs_; }
+    /// By number.
+    const std::vector<archive::FrameOrgan>& organs() const { return organs_; }
     /// Three corners a triangle, and the organ of each triangle.
     const std::vector<glm::vec3>& corners() const { return corners_; }
     const std::vector<std::uint32_t>& organ_of_triangle() const { return organ_of_triangle_; }
@@ -45,11 +37,11 @@ public:
     glm::vec3 highest() const { return highest_; }
 
 private:
-    void add_internodes(const FrameGeometry& geometry, int sides);
-    void add_surfaces(const FrameGeometry& geometry);
-    void add(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+    void add_internodes(const FrameGeometry& geometry, const archive::FrameOrgans& organs, int sides);
+    void add_surfaces(const FrameGeometry& geometry, const archive::FrameOrgans& organs);
+    void add(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, std::uint32_t organ);
 
-    std::vector<ScannedOrgan> organs_;
+    std::vector<archive::FrameOrgan> organs_;
     std::vector<glm::vec3> corners_;
     std::vector<std::uint32_t> organ_of_triangle_;
     glm::vec3 lowest_{0}, highest_{0};

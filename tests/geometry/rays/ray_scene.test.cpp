@@ -1,6 +1,7 @@
 #include "geometry/rays/ray_scene.h"
 
 #include "espalier/base/random.h"
+#include "espalier/base/stations.h"
 
 #include "catch.h"
 
@@ -98,4 +99,37 @@ TEST_CASE("a part that stands alone is hit to the last bit as one beside others"
         ++hits;
     }
     CHECK(hits > 5000);
+}
+
+TEST_CASE("four rays together meet what each meets alone", "[rays]") {
+    std::vector<glm::vec3> corners;
+    RandomSamples samples(RandomKey(77, 0, Stream::process), 0, 0);
+    const auto number = [&] { return static_cast<float>(2 * samples.uniform() - 1); };
+    for (int i = 0; i < 300; ++i) {
+        const glm::vec3 middle(number(), number(), number());
+        for (int k = 0; k < 3; ++k) corners.push_back(middle + 0.1F * glm::vec3(number(), number(), number()));
+    }
+    geometry::RayScene scene;
+    const std::array parts{geometry::RayScene::Part{corners, {geometry::moved_by(glm::vec3(0))}}};
+    scene.set_parts(parts);
+    int met = 0;
+    for (int turn = 0; turn < 500; ++turn) {
+        std::array<glm::vec3, 4> origins, directions;
+        const glm::vec3 eye(3, number(), number());
+        for (std::size_t k = 0; k < 4; ++k) {
+            origins[k] = eye;
+            directions[k] = glm::normalize(glm::vec3(-1, 0.3F * number(), 0.3F * number()));
+        }
+        const auto together = scene.first_hits(origins, directions, 10);
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto alone = scene.first_hit(origins[k], directions[k], 0, 10);
+            REQUIRE(together[k].has_value() == alone.has_value());
+            if (!alone) continue;
+            ++met;
+            REQUIRE(together[k]->triangle == alone->triangle);
+            REQUIRE(together[k]->part == 0);
+            REQUIRE(together[k]->distance == Approx(alone->distance));
+        }
+    }
+    CHECK(met > 200);
 }
