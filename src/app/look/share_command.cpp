@@ -86,8 +86,8 @@ public:
         app().add_flag("--dark", page_.is_dark, "use a dark background")->excludes(live);
         add_json_flag("print what was written as JSON");
         app().footer(
-            R"(The page needs neither Espalier nor a network. It shows axes, leaves and organs in their colours, and a click on one
-shows its symbol, identity and recorded parameters; without textures and bark, which `share` in the studio takes along.
+            R"(The page needs neither Espalier nor a network. It shows axes, leaves and organs in their colours, and the fields
+that the run has recorded as grids. A click on an organ shows its symbol, identity and recorded parameters; without textures and bark, which `share` in the studio takes along.
 With --live it is the studio: texts, sliders, charts, fields, and whoever opens it can change the plant. It keeps changes in the
 browser and hands them over as files. docs/web.md says what such a page cannot do.
 Examples:
