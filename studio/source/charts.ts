@@ -1,7 +1,7 @@
 /** Charts of the statistics over steps, beside those of a growth that was pinned before. */
 import type uPlot from "uplot";
 import { h, icon, remember, remembered } from "./elements.js";
-import { plotOverSteps, type Curve } from "./plot.js";
+import { plotOverSteps, showStep, type Curve } from "./plot.js";
 import type { Statistics } from "./protocol.js";
 import type { Studio } from "./state.js";
 import { sameTexts } from "./tables.js";
@@ -49,7 +49,7 @@ export class ChartsPanel {
     );
     studio.on("statistics", () => this.later());
     studio.on("theme", () => this.later());
-    studio.on("shown", () => this.plots.forEach((plot) => plot.redraw(false)));
+    studio.on("shown", () => this.plots.forEach(showStep));
     new ResizeObserver(() => this.later()).observe(this.element);
   }
 
@@ -122,7 +122,8 @@ export class ChartsPanel {
       ...curvesOf(this.studio.statistics, name, steps, false),
       ...(this.pinned ? curvesOf(this.pinned, name, steps, true) : []),
     ];
-    const place = h("figure", "chart", {}, h("figcaption", "", {}, name.replaceAll("_", " ")));
+    const unit = this.studio.statistics.units[name];
+    const place = h("figure", "chart", {}, h("figcaption", "", {}, name.replaceAll("_", " "), unit ? h("small", "", {}, ` ${unit}`) : ""));
     this.place.append(place);
     this.plots.push(
       plotOverSteps(place, steps, curves, {

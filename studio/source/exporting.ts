@@ -5,6 +5,9 @@ import type { ExportRequest, HandedFile } from "./protocol.js";
 import { errorText, type Studio } from "./state.js";
 import { zip } from "./zip.js";
 
+/** What most programs and pages read. */
+const usual = "gltf";
+
 export class Exporting {
   private asked = false;
 
@@ -19,7 +22,8 @@ export class Exporting {
 
   open(): void {
     const { studio } = this;
-    const formats = studio.help?.exporters ?? [];
+    const known = studio.help?.exporters ?? [];
+    const formats = [...known.filter(({ name }) => name === usual), ...known.filter(({ name }) => name !== usual)];
     const select = h(
       "select",
       "wide",

@@ -1,5 +1,6 @@
 /** Charts over steps, drawn by uPlot in the colours of the theme. */
 import uPlot from "uplot";
+import { short } from "./elements.js";
 import { at } from "./lists.js";
 
 export interface Curve {
@@ -47,6 +48,19 @@ function axes(small: boolean): uPlot.Axis[] {
   ];
 }
 
+/** Beside each name stands its value under the pointer, and otherwise that of the step that is shown. */
+function valueAt(plot: uPlot, steps: number[], curve: number, index: number | null, shown: number): string {
+  const at = index ?? steps.indexOf(shown);
+  const value = plot.data[curve]?.[at];
+  return typeof value === "number" ? short(value) : "–";
+}
+
+/** Curves that are the same show both: the later one is drawn in gaps. */
+function hides(curves: Curve[], index: number): boolean {
+  const { values } = at(curves, index);
+  return curves.slice(0, index).some((before) => before.values.length === values.length && before.values.every((value, i) => value === values[i]));
+}
+
 export interface PlotOptions {
   width: number;
   height: number;
@@ -62,16 +76,17 @@ export function plotOverSteps(place: HTMLElement, steps: number[], curves: Curve
       height: options.height,
       scales: { x: { time: false } },
       axes: axes(options.small ?? false),
-      legend: { show: curves.length > 1 },
+      legend: { show: true },
       cursor: { y: false, drag: { x: false, y: false }, points: { size: 5 } },
       plugins: [stepMark(options.step)],
       series: [
-        { label: "step" },
+        { label: "step", value: (_, value) => String(value ?? options.step()) },
         ...curves.map((curve, index): uPlot.Series => ({
           label: curve.name,
           stroke: themeColour(at(colours, (curve.colour ?? index) % colours.length)),
           width: curve.dashed ? 1.5 : 2,
-          ...(curve.dashed ? { dash: [6, 4] } : {}),
+          value: (shown, _, series, cursor) => valueAt(shown, steps, series, cursor, options.step()),
+          ...(curve.dashed ? { dash: [6, 4] } : hides(curves, index) ? { dash: [10, 10] } : {}),
           points: { show: steps.length < 3 },
           spanGaps: true,
         })),
@@ -85,4 +100,10 @@ export function plotOverSteps(place: HTMLElement, steps: number[], curves: Curve
     if (index !== null && index !== undefined) options.clicked(at(steps, index));
   });
   return plot;
+}
+
+/** The mark, and the values beside the names, of another step. */
+export function showStep(plot: uPlot): void {
+  plot.redraw(false);
+  if (plot.cursor.idx === null || plot.cursor.idx === undefined) plot.setLegend({ idxs: plot.data.map(() => null) }, false);
 }

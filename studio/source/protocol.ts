@@ -770,6 +770,8 @@ export interface Statistics {
   growth: number;
   /** the first is `step`; `plants` names the plants. */
   columns: string[];
+  /** of columns that have one. */
+  units: Record<string, string>;
   /** rows to add; those of a step that is known replace it. */
   rows: Cell[][];
 }

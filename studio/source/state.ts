@@ -69,7 +69,7 @@ export class Studio {
   opened = "";
   problems: Problem[] = [];
   growth: Growth | null = null;
-  statistics: Statistics = { growth: 0, columns: [], rows: [] };
+  statistics: Statistics = { growth: 0, columns: [], units: {}, rows: [] };
   columns: string[] = [];
   fields: FieldName[] = [];
   help: Help | null = null;

@@ -43,6 +43,7 @@ export class Viewport {
   private fieldName = "";
   private askedField = "";
   private fieldIsAsked = false;
+  private legendIsField = false;
   private fieldLook: FieldLook = { mode: "slice", axis: 1, at: 0.5 };
   private askedColumn = "";
   private hasAuthorLight = false;
@@ -273,6 +274,7 @@ export class Viewport {
       h("small", "", {}, note),
     );
     this.legend.hidden = false;
+    this.legendIsField = false;
   }
 
   private fillFields(): void {
@@ -292,8 +294,13 @@ export class Viewport {
     this.fieldSelect.value = name;
     this.fieldTools.hidden = name === "";
     this.askedField = "";
-    if (name === "") this.scene.showField(null, this.fieldLook);
-    else this.askField();
+    if (name !== "") {
+      this.askField();
+      return;
+    }
+    this.scene.showField(null, this.fieldLook);
+    this.field = null;
+    if (this.legendIsField) this.colourBy(this.colouring);
   }
 
   /** That of the step that shows; one request is under way at a time. */
@@ -321,6 +328,7 @@ export class Viewport {
     this.showFieldValue();
     const unit = this.studio.fields.find(({ name }) => name === field.name)?.unit ?? "";
     this.drawLegend(`${field.name}${unit ? ` (${unit})` : ""}`, field.lowest, field.highest, `after step ${whole(field.step)}`);
+    this.legendIsField = true;
   }
 
   private buildFieldTools(): void {

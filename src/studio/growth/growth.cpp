@@ -73,6 +73,9 @@ struct Growth::Work {
     /// The rows that the frame adds.
     std::string record(const Frame& frame) {
         statistics->record(frame);
+        for (const PlantFrame& plant : frame.plants) {
+            for (const Quantity& one : plant.quantities) units[one.name] = one.unit;
+        }
         std::string rows = rows_behind(statistics_file, statistics_read);
         statistics_read += rows.size();
         return rows;
@@ -92,14 +95,15 @@ struct Growth::Work {
     std::unique_ptr<Recorder> statistics;
     fs::path statistics_file;
     std::size_t statistics_read = 0;
-    std::shared_ptr<const Origin> origin;  ///< null: what is drawn comes back to the strings
-    bool draws_apart = false;              ///< steps may be drawn in any order, or not at all
-    int at = -1;                           ///< the step that the world is at
-    int derived = -1;                      ///< the last step that there is
-    int own_steps = 0;                     ///< that were derived here
-    int drawn = -1;                        ///< up to it all steps have been drawn in order, with their statistics
-    int told = -1;                         ///< the last step that the listener knows
-    bool is_ended = false;                 ///< the model has stopped
+    std::map<std::string, std::string> units;  ///< of what processes told of plants
+    std::shared_ptr<const Origin> origin;      ///< null: what is drawn comes back to the strings
+    bool draws_apart = false;                  ///< steps may be drawn in any order, or not at all
+    int at = -1;                               ///< the step that the world is at
+    int derived = -1;                          ///< the last step that there is
+    int own_steps = 0;                         ///< that were derived here
+    int drawn = -1;                            ///< up to it all steps have been drawn in order, with their statistics
+    int told = -1;                             ///< the last step that the listener knows
+    bool is_ended = false;                     ///< the model has stopped
     bool told_stop = false;
     bool is_deriving = false;
     bool is_whole = true;        ///< the world is not in the midst of a step
@@ -452,6 +456,7 @@ void Growth::note_grown(Work& work, std::size_t internodes, std::string statisti
     step.derived = work.own_steps;
     step.seconds = seconds();
     step.statistics = std::move(statistics);
+    step.units = work.units;
     step.is_end = work.is_ended || work.at >= last_step_;
     if (!cancelled_) listener_.grown(number(), std::move(step));
 }

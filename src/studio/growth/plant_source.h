@@ -45,7 +45,8 @@ struct GrownStep {
     int derived = 0;         ///< steps that were derived for it, and not taken from an earlier growth
     double seconds = 0;      ///< since it began
     std::string statistics;  ///< the rows of statistics.csv that this step added, with the header in the first
-    bool is_end = false;     ///< no step follows
+    std::map<std::string, std::string> units = {};  ///< of its columns that have one
+    bool is_end = false;                            ///< no step follows
 };
 
 /// Told on the thread of what is shown.

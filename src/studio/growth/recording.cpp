@@ -209,6 +209,7 @@ void Recording::begin() {
     step.internodes = last->internodes();
     const fs::path statistics = run_->folder() / "statistics.csv";
     if (fs::exists(statistics)) step.statistics = read_text(statistics);
+    step.units = run_->units();
     step.is_end = true;
     if (cancelled_) return;
     listener_.started(number(), std::move(start));

@@ -143,7 +143,7 @@ void Growths::note_grown(std::uint32_t growth, const GrownStep& step) {
     progress_.newest = step;
     progress_.newest.statistics.clear();
     progress_.state = step.is_end ? "done" : "growing";
-    statistics_.add(step.statistics);
+    statistics_.add(step.statistics, step.units);
     if (step.is_end) is_busy_ = false;
     if (pace_.lets_through(step.is_end)) {
         broadcast_progress();

@@ -13,12 +13,14 @@ struct StatisticsRows {
     static constexpr TypeName type{"Statistics", "rows of a table over time"};
     std::uint32_t growth = 0;
     std::vector<std::string> columns;
+    std::map<std::string, std::string> units;
     std::vector<std::vector<Cell>> rows;
 
     template <class Self, class Fields>
     static void declare(Self& self, const Fields& field) {
         field("growth", self.growth, "number of the growth");
         field("columns", self.columns, "the first is `step`; `plants` names the plants");
+        field("units", self.units, "of columns that have one");
         field("rows", self.rows, "rows to add; those of a step that is known replace it");
     }
 };
@@ -34,7 +36,10 @@ Cell cell_of(const std::string& text) {
 
 }  // namespace
 
-void Statistics::add(const std::string& rows) {
+void Statistics::add(const std::string& rows, const std::map<std::string, std::string>& units) {
+    for (const auto& [column, unit] : units) {
+        if (!unit.empty() && unit != "1") units_[column] = unit;
+    }
     std::size_t begin = 0;
     for (std::size_t end; (end = rows.find('\n', begin)) != std::string::npos; begin = end + 1) {
         std::vector<std::string> cells = csv_cells(std::string_view(rows).substr(begin, end - begin));
@@ -53,7 +58,7 @@ void Statistics::clear() {
 }
 
 Json Statistics::message(std::uint32_t growth, std::size_t first) const {
-    StatisticsRows table{growth, columns_, {}};
+    StatisticsRows table{growth, columns_, units_, {}};
     for (std::size_t i = first; i < rows_.size(); ++i) {
         std::vector<Cell>& row = table.rows.emplace_back();
         for (const std::string& text : rows_[i]) row.push_back(cell_of(text));

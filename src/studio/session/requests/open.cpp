@@ -101,7 +101,7 @@ SharedModel share(SessionParts& session, Viewer&, const Nothing&) {
     const DocumentTexts& texts = session.document.texts();
     SharedModel shared = shared_files(state.opened.path, texts.contents(state), session.options.library_folder);
     shared.seed = session.document.seed();
-    shared.steps = session.document.steps();
+    if (state.opened.steps) shared.steps = *state.opened.steps;  // otherwise the texts say it
     return shared;
 }
 
