@@ -3,8 +3,8 @@
 
 #include "espalier/base/error.h"
 
-#include "base/base64.h"
 #include "catch.h"
+#include "page_letters.h"
 
 #include <nlohmann/json.hpp>
 
@@ -14,7 +14,7 @@
 namespace espalier::studio {
 namespace {
 
-std::string unzipped(const std::vector<char>& bytes) {
+std::string unzipped(const std::string& bytes) {
     z_stream stream{};
     REQUIRE(inflateInit2(&stream, 31) == Z_OK);
     std::array<char, 4096> out;
@@ -45,9 +45,7 @@ TEST_CASE("a page that grows has the files by their places in the folder they sh
     CHECK(page.find("<title>A &lt;b> &amp; &quot;c&quot;</title>") != page.npos);
     CHECK(page.find("/home/a") == page.npos);
 
-    std::vector<char> bytes;
-    REQUIRE(decode_base64(between(page, "id=\"part-library.pack\">", "<"), bytes));
-    const std::string pack = unzipped(bytes);
+    const std::string pack = unzipped(from_letters(between(page, "id=\"part-library.pack\">", "<")));
     const std::size_t end = pack.find('\n');
     const auto names = nlohmann::json::parse(pack.substr(0, end));
     CHECK(names == nlohmann::json::parse(R"([["models/x/tree.l", 10], ["scenes/one.toml", 9]])"));

@@ -40,7 +40,7 @@ TEST_CASE("a link names what comes with the program, and holds what was changed"
     REQUIRE(shared["files"].size() == 3);
     CHECK(shared["main"] == "environments/stalk.toml");
     CHECK(shared["seed"] == 7);
-    CHECK(shared["steps"] == 3);
+    CHECK_FALSE(shared.contains("steps"));  // the texts say them
     CHECK(shared["files"][0]["library"] == "environments/stalk.toml");
     CHECK_FALSE(shared["files"][0].contains("content"));
     CHECK(shared["files"][2]["path"] == "models/stalk.l");
@@ -55,6 +55,8 @@ TEST_CASE("a link names what comes with the program, and holds what was changed"
     CHECK(page.last("document")["seed"] == 7);
     CHECK((page.packets.back().substr(8) == picture));
     CHECK(text_of(studio.folder.path() / "shared/stalk/environments/view.v") == "angle increment: 30\n");
+    studio.change({{"steps", 2}});
+    CHECK(studio.ask({{"do", "share"}})["steps"] == 2);
 }
 
 TEST_CASE("a model alone becomes one file of a folder of its own", "[studio]") {
