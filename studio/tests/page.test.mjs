@@ -243,6 +243,10 @@ test("a field and the counts are those of the step that shows", async () => {
   await shows(3);
   await page.waitForSelector(".viewport[data-field='light 3']");
   assert.match(await page.locator(".legend").textContent(), /after step 3/);
+  await page.getByLabel("Field", { exact: true }).selectOption("");
+  await page.waitForFunction(() => document.querySelector(".legend").hidden);
+  await page.getByLabel("Field", { exact: true }).selectOption("light");
+  await page.waitForFunction(() => !document.querySelector(".legend").hidden);
   assert.ok((await modules()) < last);
   await page.locator(".scrub").fill("24");
   await shows(24);

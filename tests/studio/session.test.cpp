@@ -44,6 +44,7 @@ TEST_CASE("what is open grows at once, and its last step is sent", "[studio]") {
     CHECK(page.packets.back().substr(0, 4) == "ESP1");
     CHECK(internodes(page.packets.back()) == 15);  // 2^4 - 1
     CHECK(page.last("statistics")["columns"][0] == "step");
+    CHECK(page.last("statistics")["units"]["volume"] == "m3");
 }
 
 TEST_CASE("a page that says hello late is told everything", "[studio]") {
