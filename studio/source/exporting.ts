@@ -32,7 +32,7 @@ export class Exporting {
         h("option", "", { value: name, selected: index === 0 }, `${name} – ${summary}`),
       ),
     );
-    const about = h("pre", "about");
+    const about = h("pre", "about", { tabindex: 0, "aria-label": "What the format holds" });
     const film = check("film");
     const smooth = check("smooth", studio.limbs?.smooth ?? false);
     const instances = check("instances");
