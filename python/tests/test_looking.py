@@ -3,12 +3,13 @@
 import base64
 import html
 import json
+import lzma
 import math
 import pathlib
 import pickle
 import re
+import string
 import struct
-import zlib
 
 import pytest
 
@@ -47,8 +48,14 @@ def test_a_shared_page_needs_nothing_else(run, tmp_path):
     page = es.share(run, tmp_path / "bush.html", frames=3, title="</script><b>").read_text(encoding="utf-8")
     recording = json.loads(re.search(r'<script type="application/json" id="recording">(.*?)</script>', page, re.DOTALL)[1])
     assert recording["title"] == "</script><b>" and recording["steps"] == [0, 2, 4]
-    packet = zlib.decompress(base64.b64decode(recording["packets"][-1]), -15)
-    assert packet[:4] == b"ESP1" and struct.unpack_from("<I", packet, 8)[0] == 4
+    of_python = string.digits + string.ascii_uppercase + string.ascii_lowercase + "!#$%&()*+-;<=>?@^_`{|}~"
+    text = recording["packets"][0].translate(str.maketrans(recording["letters"], of_python))
+    packets = lzma.decompress(base64.b85decode(text))
+    for step in recording["steps"]:
+        length, letters, _, shown = struct.unpack_from("<I4sIi", packets)
+        assert letters == b"ESP1" and shown == step
+        packets = packets[4 + length :]
+    assert packets == b""
     assert page.count("</script>") == 2 and "src=" not in page[: page.index("<script")] and "EspalierView.playRecording()" in page
 
 
