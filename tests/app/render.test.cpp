@@ -133,11 +133,11 @@ TEST_CASE("render: a contact sheet holds columns and rows", "[render]") {
 TEST_CASE("render: films have the frames asked for", "[render]") {
     const RenderPlace place;
     if (!place.grow()) return;
-    CHECK(place.run("render run --size 64x48 --output f.ogv").code == 0);
-    CHECK(place.bytes("f.ogv").starts_with("OggS"));
-    CHECK(place.run("render run --size 64x48 --output unfolding.ogv --between 2").code == 0);
+    CHECK(place.run("render run --size 64x48 --output f.webm").code == 0);
+    CHECK(place.bytes("f.webm").starts_with("\x1A\x45\xDF\xA3"));
+    CHECK(place.run("render run --size 64x48 --output unfolding.webm --between 2").code == 0);
     CHECK_THAT(place.run("render run --output still.png --between 2").err, Contains("'still.png' is no film"));
-    CHECK(place.run("render run --size 64x48 --output turn.ogv --step last --orbit 360 --frames 6").code == 0);
+    CHECK(place.run("render run --size 64x48 --output turn.webm --step last --orbit 360 --frames 6").code == 0);
     if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) {
         WARN("skipped: no ffmpeg here");
         return;
@@ -169,14 +169,14 @@ TEST_CASE("render: a film that is interrupted leaves nothing", "[render]") {
     const std::vector<std::string> many{"--frames", "100000", "--step", "last", "--orbit", "1"};
     const std::vector<std::string> slow{"--light", "--samples", "65536", "--size", "2000x2000"};
     for (const auto& how : {many, slow}) {
-        std::vector<std::string> words{"render", "run", "--output", "film.ogv"};
+        std::vector<std::string> words{"render", "run", "--output", "film.webm"};
         words.insert(words.end(), how.begin(), how.end());
         // The first picture of the slow film takes minutes, and the film begins after it.
         const auto at_work = [&] { return begun() || how == slow; };
         const Outcome outcome = place.run_until(words, at_work, [](pid_t child) { kill(child, SIGINT); });
         CHECK(outcome.code == 130);
         CHECK_FALSE(begun());
-        CHECK_FALSE(std::filesystem::exists(place.path() / "film.ogv"));
+        CHECK_FALSE(std::filesystem::exists(place.path() / "film.webm"));
     }
 }
 
@@ -202,8 +202,8 @@ TEST_CASE("render: light makes pictures, sheets and films, the same with any num
     }
     REQUIRE(place.run("render run --output sheet.png --sheet 2x1 " + light).code == 0);
     CHECK(place.size_of("sheet.png") == std::array{80, 30});
-    REQUIRE(place.run("render run --output film.ogv --frames 2 " + light).code == 0);
-    CHECK_FALSE(place.bytes("film.ogv").empty());
+    REQUIRE(place.run("render run --output film.webm --frames 2 " + light).code == 0);
+    CHECK_FALSE(place.bytes("film.webm").empty());
     REQUIRE(place.run("render run --output many.png --step 3:4 " + light).code == 0);
     CHECK(std::filesystem::exists(place.path() / "many-0003.png"));
 }

@@ -13,6 +13,7 @@
   fmt,
   glm,
   libpng,
+  libvpx,
   lz4,
   nlohmann_json,
   nlopt,
@@ -47,6 +48,7 @@ stdenv.mkDerivation (finalAttrs: {
     fmt
     glm
     libpng
+    libvpx
     lz4
     nlohmann_json
     nlopt
