@@ -71,8 +71,6 @@ public:
     Body(const RecordedRun& run, PictureStyle style) : run_(&run) {
         restyle(std::move(style));
         renderer_->AddActor(legend_actor_);
-        // What is seen through is drawn in its order; VTK's quicker way draws it over what stands before it.
-        renderer_->SetUseDepthPeeling(1);
         renderer_->SetMaximumNumberOfPeels(6);
         renderer_->SetOcclusionRatio(0);
         legend_actor_->GetScene()->AddItem(legend_);
@@ -93,6 +91,7 @@ public:
     };
     std::vector<Part> parts_;
     std::vector<vtkSmartPointer<vtkProp>> others_;               ///< fields, ground, labels
+    vtkSmartPointer<vtkActor> ground_;                           ///< null: none
     std::vector<vtkSmartPointer<vtkActor>> silhouettes_;         ///< of what a traced picture shows
     std::optional<vtkSmartPointer<vtkActor>> background_scene_;  ///< null: none. Read once
     std::vector<vtkSmartPointer<vtkActor>> highlight_actors_;
@@ -236,13 +235,18 @@ private:
         parts_.clear();
         others_.clear();
         silhouettes_.clear();
+        ground_ = nullptr;
         here_ = whole ? whole->survey : StageSurvey{};
         if (!whole) add_survey(*frame_, *geometry_, here_);
         legend_->legend = {};
         build_meshes();
+        // What is seen through is drawn in its order; VTK's quicker way draws it over what stands before it.
+        const bool wants_order = whole || shows_more_than_ground();
+        renderer_->SetUseDepthPeeling(wants_order);
         if (!style_.light) add_lights_and_colours(whole);
         if (style_.light && !style_.fields.empty()) add_silhouettes();
         add_field_props();
+        if (!wants_order && ground_) ground_->SetForceOpaque(true);
         if (!style_.light) add_background_scene();
         add_labels();
         write_legend();
@@ -351,8 +355,17 @@ private:
         if (!disc) return;
         const StageSurvey& seen = survey_ && !survey_->box.empty() ? *survey_ : here_;
         const float opacity = seen.has_roots_to_see() ? clear_ground : 1;
-        others_.push_back(ground_actor(disc->middle, disc->radius, visibility, style_.background, opacity));
-        renderer_->AddViewProp(others_.back());
+        ground_ = ground_actor(disc->middle, disc->radius, visibility, style_.background, opacity);
+        others_.push_back(ground_);
+        renderer_->AddViewProp(ground_);
+    }
+
+    /// Among what is seen through. The ground alone needs no order, which takes half of a picture's time: it is drawn
+    /// after all else.
+    bool shows_more_than_ground() const {
+        const auto is_textured = [&](const Part& part) { return !texture_file(part.mesh).empty(); };
+        return !style_.fields.empty() || here_.has_labels || run_->background() ||
+               std::any_of(parts_.begin(), parts_.end(), is_textured);
     }
 
     /// None where nothing is shown.
