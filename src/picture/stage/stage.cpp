@@ -91,7 +91,6 @@ public:
     };
     std::vector<Part> parts_;
     std::vector<vtkSmartPointer<vtkProp>> others_;               ///< fields, ground, labels
-    vtkSmartPointer<vtkActor> ground_;                           ///< null: none
     std::vector<vtkSmartPointer<vtkActor>> silhouettes_;         ///< of what a traced picture shows
     std::optional<vtkSmartPointer<vtkActor>> background_scene_;  ///< null: none. Read once
     std::vector<vtkSmartPointer<vtkActor>> highlight_actors_;
@@ -235,18 +234,15 @@ private:
         parts_.clear();
         others_.clear();
         silhouettes_.clear();
-        ground_ = nullptr;
         here_ = whole ? whole->survey : StageSurvey{};
         if (!whole) add_survey(*frame_, *geometry_, here_);
         legend_->legend = {};
         build_meshes();
         // What is seen through is drawn in its order; VTK's quicker way draws it over what stands before it.
-        const bool wants_order = whole || shows_more_than_ground();
-        renderer_->SetUseDepthPeeling(wants_order);
+        renderer_->SetUseDepthPeeling(whole || shows_more_than_ground());
         if (!style_.light) add_lights_and_colours(whole);
         if (style_.light && !style_.fields.empty()) add_silhouettes();
         add_field_props();
-        if (!wants_order && ground_) ground_->SetForceOpaque(true);
         if (!style_.light) add_background_scene();
         add_labels();
         write_legend();
@@ -355,9 +351,10 @@ private:
         if (!disc) return;
         const StageSurvey& seen = survey_ && !survey_->box.empty() ? *survey_ : here_;
         const float opacity = seen.has_roots_to_see() ? clear_ground : 1;
-        ground_ = ground_actor(disc->middle, disc->radius, visibility, style_.background, opacity);
-        others_.push_back(ground_);
-        renderer_->AddViewProp(ground_);
+        const auto ground = ground_actor(disc->middle, disc->radius, visibility, style_.background, opacity);
+        if (!renderer_->GetUseDepthPeeling()) ground->SetForceOpaque(true);
+        others_.push_back(ground);
+        renderer_->AddViewProp(ground);
     }
 
     /// Among what is seen through. The ground alone needs no order, which takes half of a picture's time: it is drawn
