@@ -3,7 +3,9 @@
 #include "program.h"
 
 #include <array>
+#include <bit>
 #include <chrono>
+#include <cstdint>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -146,6 +148,42 @@ TEST_CASE("render: films have the frames asked for", "[render]") {
     CHECK(pictures_in_gif(place.bytes("f.gif")) == 5);
     CHECK(place.run("render run --size 64x48 --output f.gif --step last --orbit 360 --frames 7").code == 0);
     CHECK(pictures_in_gif(place.bytes("f.gif")) == 7);
+}
+
+TEST_CASE("render: a film of a long run has 100 pictures, unless one asks for other steps", "[render]") {
+    const RenderPlace place;
+    if (!place.grow()) return;
+    place.write("long.l", "lsystem: 1\nderivation length: 120\naxiom: A\nA --> F(0.1) A\nendlsystem\n");
+    REQUIRE(place.run("run long.l --output long --quiet").code == 0);
+    const auto seconds = [&](const std::string& options) {
+        REQUIRE(place.run("render long --size 32x24 --rate 10 --output f.webm " + options).code == 0);
+        const std::string bytes = place.bytes("f.webm"), duration = "\x44\x89";
+        std::uint64_t bits = 0;
+        const std::size_t at = bytes.find(duration) + 2 + 8;  // behind its name and its length
+        for (std::size_t i = 0; i < 8; ++i) bits = bits << 8 | static_cast<unsigned char>(bytes.at(at + i));
+        return std::bit_cast<double>(bits) / 1000;
+    };
+    CHECK(seconds("") == 10);
+    CHECK(seconds("--step all") == 12.1);
+    CHECK(seconds("--step 0:20") == 2.1);
+    CHECK(seconds("--frames 130") == 13);
+}
+
+TEST_CASE("render: slices are seen from their front, unless one asks for a camera", "[render]") {
+    const RenderPlace place;
+    if (!place.grow()) return;
+    place.write("lit.toml", std::string(rendered_scene) +
+                                "fields = [\"light\"]\n[environment.light]\nprocess = \"voxel-shade\"\nvoxel = 0.5\n");
+    REQUIRE(place.run("run lit.toml --output lit --quiet").code == 0);
+    const auto picture = [&](const std::string& options) {
+        REQUIRE(place.run("render lit --size 64x48 --output s.png --quiet " + options).code == 0);
+        return place.bytes("s.png");
+    };
+    const std::string slice = "--field light:slice=";
+    CHECK((picture(slice + "x") == picture(slice + "x --azimuth 90 --elevation 0")));
+    CHECK((picture(slice + "y") == picture(slice + "y --azimuth 0 --elevation 90")));
+    CHECK((picture(slice + "z") == picture(slice + "z --azimuth 0 --elevation 0")));
+    CHECK((picture(slice + "x") != picture(slice + "x --azimuth 30")));
 }
 
 TEST_CASE("render: without ffmpeg it says what to install, exit code 2, and leaves nothing", "[render]") {

@@ -261,7 +261,7 @@ private:
         const bool is_turned = app().count("--azimuth") > 0 || app().count("--elevation") > 0;
         job.camera.front_if_flat = !is_turned;
         if (!is_turned && orbit_ == 0) face_slices(job);
-        job.style.sun_azimuth = camera_.azimuth - 50;
+        job.style.sun_azimuth = job.camera.azimuth - 50;
         if (light_.is_on()) job.style.sun_elevation = sun_with_sky;
         if (light_.is_on() && app().count("--elevation") == 0) job.camera.elevation = eye_with_sky;
         const auto& view = job.run.view();
@@ -278,6 +278,7 @@ private:
             return field.kind == FieldLook::Kind::slice && field.axis == fields.front().axis;
         };
         if (fields.empty() || !std::all_of(fields.begin(), fields.end(), lies_alike)) return;
+        job.camera.front_if_flat = false;
         job.camera.azimuth = fields.front().axis == 'x' ? 90 : 0;
         job.camera.elevation = fields.front().axis == 'y' ? 90 : 0;
     }
