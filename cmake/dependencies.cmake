@@ -22,13 +22,15 @@ find_library(EMBREE_LIBRARY NAMES embree3 embree4 REQUIRED)
 if(ESPALIER_LOOK)
   find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMath
     CommonTransforms FiltersCore FiltersGeneral FiltersSources IOXML IOGeometry IOPLY IOImage IOExport
-    IOOggTheora ChartsCore InteractionStyle InteractionWidgets RenderingAnnotation RenderingCore RenderingContext2D
+    ChartsCore InteractionStyle InteractionWidgets RenderingAnnotation RenderingCore RenderingContext2D
     RenderingContextOpenGL2 RenderingFreeType RenderingOpenGL2 RenderingUI RenderingVolume RenderingVolumeOpenGL2)
   find_package(Boost 1.74 REQUIRED)  # Beast and Asio are headers
   find_package(LibLZMA REQUIRED)  # frames of pages
   find_package(Qhull REQUIRED)  # convex hulls
   find_path(CMARK_INCLUDE_DIR cmark.h REQUIRED)  # Markdown of lessons; its CMake package wants the program, too
   find_library(CMARK_LIBRARY cmark REQUIRED)
+  find_path(VPX_INCLUDE_DIR vpx/vpx_encoder.h REQUIRED)  # films; it has no CMake package
+  find_library(VPX_LIBRARY vpx REQUIRED)
   find_package(NLopt REQUIRED)  # searches for parameters
   find_package(OpenGL QUIET COMPONENTS EGL)  # pictures without a display
 endif()

@@ -122,7 +122,7 @@ entry environments/aono-kunii-field.toml "Tree between attractor and inhibitor" 
 grown_by environments/aono-kunii-field.toml models/environment/aono-kunii-field.l "Forks between attractors and inhibitors" "Aono & Kunii 1984"
 entry environments/towards-light.toml "Tree beside an awning" "Lintermann & Deussen 1997" -- --light
 grown_by environments/towards-light.toml models/environment/towards-light.pgraph "Tree that bends towards the light" "Lintermann & Deussen 1997"
-entry models/environment/awning.l "Leaf of an awning" "" -- --elevation 35
+grown_by environments/towards-light.toml models/environment/awning.l "Leaf of an awning" ""
 grown_by environments/self-organizing.toml models/colonization/self-organizing.l "Self-organizing tree: the model" "Palubicki et al. 2009"
 grown_by environments/tree.toml models/colonization/tree.l "Tree from a cloud of points: the model" "Runions, Lane & Prusinkiewicz 2007"
 entry models/stochastic/random-tree.l "Random angles and lengths" "after Prusinkiewicz & Lindenmayer 1990, section 1.7"
@@ -160,7 +160,7 @@ entry models/sdl/daisy.sdl "Daisies" "after Szemla 1999"
 entry models/sdl/agave.sdl "Agave" "after Szemla 1999"
 entry models/herbs/grass.l "Grass of particles" "Reeves & Blau 1985"
 entry models/sdl/grass.sdl "Tuft of grass" "after Szemla 1999"
-entry models/sdl/straw.sdl "Straw, as printed" "Szemla 1999" -- --size 360x360
+entry models/sdl/straw.sdl "Straw, as printed" "Szemla 1999"
 entry models/signals/acropetal-flowering.l "Flowering from below" "Prusinkiewicz & Lindenmayer 1990, section 3.2"
 entry models/signals/basipetal-flowering.l "Flowering from above" "Prusinkiewicz & Lindenmayer 1990, section 3.2"
 
@@ -236,10 +236,10 @@ entry environments/two-roots-apart.toml "Two roots far apart" "Mech & Prusinkiew
 entry environments/two-roots-long.toml "Two roots, twice as deep" "Mech & Prusinkiewicz 1996" -- --field water:volume --no-legend
 entry environments/two-roots-no-depletion.toml "Two roots in soil that stays wet" "Mech & Prusinkiewicz 1996" -- --field water:volume --no-legend
 entry environments/one-root.toml "One root" "Mech & Prusinkiewicz 1996" -- --field water:volume --no-legend
-entry environments/root-2d-blind.toml "Root without hydrotropism" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0
-entry environments/root-2d-stones.toml "Root between stones" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0
-entry environments/root-2d-uniform.toml "Root in evenly moist soil" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0
-entry environments/storm-on-layers.toml "A storm on layers of loam, clay and sand" "Richards 1931; Celia et al. 1990" -- --field water:slice --no-legend --azimuth 0 --elevation 0
+entry environments/root-2d-blind.toml "Root without hydrotropism" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend
+entry environments/root-2d-stones.toml "Root between stones" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend
+entry environments/root-2d-uniform.toml "Root in evenly moist soil" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend
+entry environments/storm-on-layers.toml "A storm on layers of loam, clay and sand" "Richards 1931; Celia et al. 1990" -- --field water:slice --no-legend
 entry environments/leaf-day.toml "A clear day of a plant that drinks" "Farquhar et al. 1980; Medlyn et al. 2011" --steps 28 -- --colour-by leaves.temperature --no-legend
 entry environments/price-of-shade.toml "The price of shade" "Farquhar et al. 1980; ours" --
 grown_by environments/price-of-shade.toml models/light/carbon-tree.l "A young tree that lives on what its leaves gain" "ours"
@@ -260,13 +260,13 @@ entry environments/drought-shallow.toml "Shallow roots in a dry season" "Couvreu
 entry environments/intercrop.toml "Maize and lupine in one soil" "Willey 1979; de Wit 1958" -- --field water:slice --no-legend
 entry environments/intercrop-maize.toml "Two maize plants" "Willey 1979; de Wit 1958" -- --field water:slice --no-legend
 entry environments/intercrop-lupine.toml "Two lupines" "Willey 1979; de Wit 1958" -- --field water:slice --no-legend
-entry environments/hydrotropism.toml "A root turns to water" "Jaffe, Takahashi & Biro 1985" -- --field water:slice --no-legend --azimuth 0 --elevation 5
-entry environments/chemotropism.toml "A root turns to fertiliser" "Newcombe & Rhodes 1904; Leitner et al. 2010" -- --field nitrate:slice --no-legend --azimuth 0 --elevation 5
+entry environments/hydrotropism.toml "A root turns to water" "Jaffe, Takahashi & Biro 1985" -- --field water:slice --no-legend
+entry environments/chemotropism.toml "A root turns to fertiliser" "Newcombe & Rhodes 1904; Leitner et al. 2010" -- --field nitrate:slice --no-legend
 entry environments/stones.toml "Roots between stones" "Massa & Gilroy 2003" -- --field stone.distance:iso=0 --no-legend --elevation 8
 entry environments/plough-pan.toml "Roots above a plough pan" "Bengough et al. 2011" -- --elevation 3 --size 540x540
 entry environments/dry-spell.toml "Roots after a dry spell" "Stasovski & Peterson 1991" -- --elevation 3 --size 540x540
 entry environments/tree-roots.toml "Roots of a tree" "Köstler, Brückner & Bibelriether 1968" -- --elevation 30
-entry environments/split-pot.toml "Split roots" "Couvreur et al. 2012" -- --field roots:slice --no-legend --azimuth 0 --elevation 5
+entry environments/split-pot.toml "Split roots" "Couvreur et al. 2012" -- --field roots:slice --no-legend
 entry environments/nitrate-in-rain.toml "Nitrate that rain washes down" "van Leer 1974; Barber 1995" --steps 24 -- --field nitrate:slice --no-legend
 entry environments/barley-layers.toml "Barley in layers of nitrate" "Drew 1975" -- --size 540x540
 entry environments/barley-poor.toml "Barley in poor soil" "Drew 1975" -- --size 540x540
@@ -282,7 +282,7 @@ grown_by environments/dry-spell.toml models/roots/mortal.l "Roots that die in dr
 grown_by environments/tree-roots.toml models/roots/tree.l "Roots of a tree" "Köstler, Brückner & Bibelriether 1968"
 grown_by environments/split-pot.toml models/roots/split.l "Roots in two halves" "Pagès, Jordan & Picard 1989"
 grown_by environments/barley-layers.toml models/roots/barley.l "Barley root" "Drew 1975; Pagès et al. 1989"
-entry environments/root-2d.toml "Root that follows wet soil" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0
+entry environments/root-2d.toml "Root that follows wet soil" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend
 grown_by environments/root-2d.toml models/water/root.l "Root that takes up water" "Mech & Prusinkiewicz 1996"
 entry environments/root-flare.toml "Tree with its roots" "Runions, Lane & Prusinkiewicz 2007"
 entry environments/pot.toml "Plant in a pot" ""
@@ -381,7 +381,7 @@ grown_by environments/course-water.toml models/course/09-water.l "09 Water" "Mec
 grown_by environments/course-shape.toml models/course/10-shape.l "10 A shape" "Prusinkiewicz, James & Mech 1994"
 entry environments/course-light.toml "Light: the scene" "Mech & Prusinkiewicz 1996"
 entry environments/course-shape.toml "A shape: the scene" "Prusinkiewicz, James & Mech 1994"
-entry environments/course-water.toml "Water: the scene" "Mech & Prusinkiewicz 1996"
+entry environments/course-water.toml "Water: the scene" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend
 
 shelf "The language"
 entry models/language/binary-counter.l "Predecessor of several modules" ""
@@ -391,7 +391,7 @@ entry models/language/contexts.l "Contexts that name branches" ""
 entry models/language/cut.l "Cutting branches off" "after Prusinkiewicz & Lindenmayer 1990, section 1.10"
 entry models/language/decomposition.l "Decomposition" "Prusinkiewicz, Hanan & Mech 1999"
 entry models/language/homomorphism.l "Homomorphism" "Prusinkiewicz, Hanan & Mech 1999"
-entry models/language/labels.l "Labels" ""
+entry models/language/labels.l "Labels" "" -- --zoom 0.75
 entry models/language/named-modules.l "Modules with names" ""
 entry models/language/parametric-turtle.l "The turtle's parameters" "Prusinkiewicz & Lindenmayer 1990, section 1.10.2"
 entry models/language/protocol.l "Writing files" ""

@@ -75,7 +75,7 @@ function licences() {
 }
 
 /** Letters that need no escape in a page, which the page gets with each part. */
-const letters = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%()*+,-./:;=?@[]^_{|}";
+const letters = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%()*+,-./:;=?@[]^_{|";
 
 function to85(bytes) {
   const text = [];

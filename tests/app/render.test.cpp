@@ -3,7 +3,9 @@
 #include "program.h"
 
 #include <array>
+#include <bit>
 #include <chrono>
+#include <cstdint>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -133,11 +135,11 @@ TEST_CASE("render: a contact sheet holds columns and rows", "[render]") {
 TEST_CASE("render: films have the frames asked for", "[render]") {
     const RenderPlace place;
     if (!place.grow()) return;
-    CHECK(place.run("render run --size 64x48 --output f.ogv").code == 0);
-    CHECK(place.bytes("f.ogv").starts_with("OggS"));
-    CHECK(place.run("render run --size 64x48 --output unfolding.ogv --between 2").code == 0);
+    CHECK(place.run("render run --size 64x48 --output f.webm").code == 0);
+    CHECK(place.bytes("f.webm").starts_with("\x1A\x45\xDF\xA3"));
+    CHECK(place.run("render run --size 64x48 --output unfolding.webm --between 2").code == 0);
     CHECK_THAT(place.run("render run --output still.png --between 2").err, Contains("'still.png' is no film"));
-    CHECK(place.run("render run --size 64x48 --output turn.ogv --step last --orbit 360 --frames 6").code == 0);
+    CHECK(place.run("render run --size 64x48 --output turn.webm --step last --orbit 360 --frames 6").code == 0);
     if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) {
         WARN("skipped: no ffmpeg here");
         return;
@@ -146,6 +148,42 @@ TEST_CASE("render: films have the frames asked for", "[render]") {
     CHECK(pictures_in_gif(place.bytes("f.gif")) == 5);
     CHECK(place.run("render run --size 64x48 --output f.gif --step last --orbit 360 --frames 7").code == 0);
     CHECK(pictures_in_gif(place.bytes("f.gif")) == 7);
+}
+
+TEST_CASE("render: a film of a long run has 100 pictures, unless one asks for other steps", "[render]") {
+    const RenderPlace place;
+    if (!place.grow()) return;
+    place.write("long.l", "lsystem: 1\nderivation length: 120\naxiom: A\nA --> F(0.1) A\nendlsystem\n");
+    REQUIRE(place.run("run long.l --output long --quiet").code == 0);
+    const auto seconds = [&](const std::string& options) {
+        REQUIRE(place.run("render long --size 32x24 --rate 10 --output f.webm " + options).code == 0);
+        const std::string bytes = place.bytes("f.webm"), duration = "\x44\x89";
+        std::uint64_t bits = 0;
+        const std::size_t at = bytes.find(duration) + 2 + 8;  // behind its name and its length
+        for (std::size_t i = 0; i < 8; ++i) bits = bits << 8 | static_cast<unsigned char>(bytes.at(at + i));
+        return std::bit_cast<double>(bits) / 1000;
+    };
+    CHECK(seconds("") == 10);
+    CHECK(seconds("--step all") == 12.1);
+    CHECK(seconds("--step 0:20") == 2.1);
+    CHECK(seconds("--frames 130") == 13);
+}
+
+TEST_CASE("render: slices are seen from their front, unless one asks for a camera", "[render]") {
+    const RenderPlace place;
+    if (!place.grow()) return;
+    place.write("lit.toml", std::string(rendered_scene) +
+                                "fields = [\"light\"]\n[environment.light]\nprocess = \"voxel-shade\"\nvoxel = 0.5\n");
+    REQUIRE(place.run("run lit.toml --output lit --quiet").code == 0);
+    const auto picture = [&](const std::string& options) {
+        REQUIRE(place.run("render lit --size 64x48 --output s.png --quiet " + options).code == 0);
+        return place.bytes("s.png");
+    };
+    const std::string slice = "--field light:slice=";
+    CHECK((picture(slice + "x") == picture(slice + "x --azimuth 90 --elevation 0")));
+    CHECK((picture(slice + "y") == picture(slice + "y --azimuth 0 --elevation 90")));
+    CHECK((picture(slice + "z") == picture(slice + "z --azimuth 0 --elevation 0")));
+    CHECK((picture(slice + "x") != picture(slice + "x --azimuth 30")));
 }
 
 TEST_CASE("render: without ffmpeg it says what to install, exit code 2, and leaves nothing", "[render]") {
@@ -169,14 +207,14 @@ TEST_CASE("render: a film that is interrupted leaves nothing", "[render]") {
     const std::vector<std::string> many{"--frames", "100000", "--step", "last", "--orbit", "1"};
     const std::vector<std::string> slow{"--light", "--samples", "65536", "--size", "2000x2000"};
     for (const auto& how : {many, slow}) {
-        std::vector<std::string> words{"render", "run", "--output", "film.ogv"};
+        std::vector<std::string> words{"render", "run", "--output", "film.webm"};
         words.insert(words.end(), how.begin(), how.end());
         // The first picture of the slow film takes minutes, and the film begins after it.
         const auto at_work = [&] { return begun() || how == slow; };
         const Outcome outcome = place.run_until(words, at_work, [](pid_t child) { kill(child, SIGINT); });
         CHECK(outcome.code == 130);
         CHECK_FALSE(begun());
-        CHECK_FALSE(std::filesystem::exists(place.path() / "film.ogv"));
+        CHECK_FALSE(std::filesystem::exists(place.path() / "film.webm"));
     }
 }
 
@@ -202,8 +240,8 @@ TEST_CASE("render: light makes pictures, sheets and films, the same with any num
     }
     REQUIRE(place.run("render run --output sheet.png --sheet 2x1 " + light).code == 0);
     CHECK(place.size_of("sheet.png") == std::array{80, 30});
-    REQUIRE(place.run("render run --output film.ogv --frames 2 " + light).code == 0);
-    CHECK_FALSE(place.bytes("film.ogv").empty());
+    REQUIRE(place.run("render run --output film.webm --frames 2 " + light).code == 0);
+    CHECK_FALSE(place.bytes("film.webm").empty());
     REQUIRE(place.run("render run --output many.png --step 3:4 " + light).code == 0);
     CHECK(std::filesystem::exists(place.path() / "many-0003.png"));
 }

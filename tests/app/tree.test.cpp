@@ -6,10 +6,13 @@
 #include "program.h"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -100,6 +103,27 @@ namespace {
 json measures_of(const Workplace& place, const std::string& folder) {
     REQUIRE(place.run("analyse " + folder + " --step last --no-picture --format json").code == 0);
     return json::parse(text_of(place.path() / folder / "analysis/analysis.json"))["frames"].back()["plants"][0];
+}
+
+/// Degrees from the vertical to the line from the middle of a trunk's foot to the middle of its section at a height.
+double trunk_lean(const espalier::ObjFile& mesh, double height) {
+    const auto middle_at = [&](double level) {
+        glm::dvec3 low(1e9), high(-1e9);
+        for (const auto& face : mesh.faces) {
+            if (face.group.find("axis") == std::string::npos) continue;
+            for (int k = 0; k < 3; ++k) {
+                const glm::dvec3 &a = mesh.points[face.points[static_cast<std::size_t>(k)]],
+                                 &b = mesh.points[face.points[static_cast<std::size_t>((k + 1) % 3)]];
+                if ((a.y < level) == (b.y < level)) continue;
+                const glm::dvec3 cut = a + (level - a.y) / (b.y - a.y) * (b - a);
+                low = glm::min(low, cut);
+                high = glm::max(high, cut);
+            }
+        }
+        return 0.5 * (low + high);
+    };
+    const glm::dvec3 along = middle_at(height) - middle_at(0.02 * height);
+    return glm::degrees(std::acos(along.y / glm::length(along)));
 }
 
 }  // namespace
@@ -434,4 +458,35 @@ TEST_CASE_METHOD(Workplace, "a run takes the settings of tree, and the tree by d
     CHECK(run("rerun out").code == 0);
     CHECK_THAT(run("run environments/tree.toml --settings environments/tree.toml").err, Contains("no setting 'plant'"));
     CHECK(run("tree --output d.obj").err.find("warning") == std::string::npos);
+}
+
+TEST_CASE_METHOD(Workplace, "few triangles leave a tree its outline, its upright trunk and its limbs", "[tree]") {
+    const auto tree = [&](std::size_t triangles) {
+        const std::string name = fmt::format("of-{}.obj", triangles);
+        REQUIRE(run(fmt::format("tree --preset decurrent --seed 7 --triangles {} --output {}", triangles, name)).code ==
+                0);
+        return espalier::ObjFile(path() / name);
+    };
+    const espalier::ObjFile whole = tree(50000);
+    double top = 0;
+    for (const glm::dvec3& point : whole.points) top = std::max(top, point.y);
+    const glm::dvec3 middle(0, top / 2, 0);
+    struct Expected {
+        std::size_t triangles, limbs;
+        double overlap;  ///< by as much as leaves that are larger and fewer allow
+    };
+    for (const auto& [triangles, limbs, overlap] : {Expected{5000, 30, 0.8}, {2000, 15, 0.7}, {500, 5, 0.35}}) {
+        INFO(triangles);
+        const espalier::ObjFile few = tree(triangles);
+        for (const int right : {0, 2}) {
+            CHECK(espalier::Silhouette(whole, right, 1, middle, 1.5 * top)
+                      .overlap(espalier::Silhouette(few, right, 1, middle, 1.5 * top)) > overlap);
+        }
+        std::set<std::string> axes;
+        for (const auto& face : few.faces) {
+            if (face.group.find("axis") != std::string::npos) axes.insert(face.group);
+        }
+        CHECK(axes.size() > limbs);
+        CHECK(trunk_lean(few, 0.15 * top) < 3);
+    }
 }

@@ -254,7 +254,7 @@ TEST_CASE("two trees: neighbours shade each other, so each bears fewer leaves th
     for (const Life& life : two_trees()) CHECK(life.crowns.back().leaves < 0.8 * lone_tree().crowns.back().leaves);
 }
 
-TEST_CASE("two trees: 80 m apart each is the lone tree, letter by letter and value by value", "[two-trees]") {
+TEST_CASE("two trees: 24 m apart each is the lone tree, letter by letter and value by value", "[two-trees]") {
     const std::vector<Life> apart = lives("two-trees-apart.toml");
     REQUIRE(lone_tree().crowns.size() == cycles);
     CHECK(lone_tree().text.size() > 100000);

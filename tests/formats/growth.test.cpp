@@ -236,6 +236,41 @@ TEST_CASE("grouped growth has an object for what appears and vanishes together",
     CHECK(file.numbers(sampler["output"]) == std::vector<float>{0, 0, 0, 1, 1, 1});
 }
 
+TEST_CASE("from 5,000 internodes and organs on growth is grouped unless one says no", "[export]") {
+    const auto exported = [](int organs, std::optional<bool> grouped) {
+        HandmadePlant early, late;
+        for (int i = 0; i < organs; ++i) {
+            const glm::dvec3 base(0.1 * i, 0, 0), tip(0.1 * i, 1, 0);
+            const auto axis = static_cast<std::uint32_t>(i);
+            const Identity identity = 1 + static_cast<Identity>(i);
+            if (i > 0) early.add_internode(identity, 0, 0, axis, 0, base, tip, 0);
+            late.add_internode(identity, 0, i > 0 ? 0 : 1, axis, 0, base, tip, 0);
+        }
+        const RunFolder folder;
+        Timeline timeline(folder.path, timeline_table(), 1);
+        record(timeline, 0, {&early});
+        record(timeline, 1, {&late});
+        timeline.finish();
+        timeline.write_run(run_json);
+        const RecordedRun run(folder.path);
+        const RecordedFrame* const frames[] = {&run.frame(0), &run.frame(1)};
+        ExportedFile file;
+        ExportJob job{run, frames, {}, folder.path / "export", [&](const ExportedFile& written) { file = written; }};
+        job.grouped = grouped;
+        export_run(job, std::vector<std::string>{"gltf"});
+        return std::pair(file, GlbFile(bytes_of(file.path)).json);
+    };
+    const auto [many, of_many] = exported(5000, std::nullopt);
+    CHECK(of_many["meshes"].size() == 2);  // what was there, and what came
+    CHECK_THAT(many.hint, Catch::Contains("--no-grouped"));
+    const auto [each, of_each] = exported(5000, false);
+    CHECK(each.elements == 5000);
+    CHECK(of_each["nodes"].size() == 5001);
+    const auto [fewer, of_fewer] = exported(4999, std::nullopt);
+    CHECK(fewer.elements == 4999);
+    CHECK(fewer.hint.empty());
+}
+
 TEST_CASE("materials have names that say what they look like", "[export]") {
     const Exported exported("gltf");
     const GlbFile file(exported.text());

@@ -271,7 +271,7 @@ TEST_CASE("wild-carrot: RAYS^2 flowers an umbel, stalks turned by the golden ang
     // The first umbel made is the top one: its rays lean out by the root of their number.
     std::vector<glm::dvec3> rays;
     for (const Internode& internode : plant.interpretation.geometry.internodes) {
-        if (internode.order == 1 && internode.base_radius < 0.02) rays.push_back(direction_of(internode));
+        if (internode.order == 1 && internode.base_radius < 0.0006) rays.push_back(direction_of(internode));
     }
     REQUIRE(rays.size() == 8);
     for (std::size_t i = 1; i < rays.size(); ++i) {

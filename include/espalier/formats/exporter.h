@@ -41,7 +41,8 @@ struct ExportJob {
 
     // Options that only some formats use.
     double steps_per_second = 24;   ///< speed of growth as an animation
-    bool grouped = false;           ///< growth: organs that are born and die together are one object
+    /// Growth: organs that are born and die together are one object. None: where there are many, as the format says.
+    std::optional<bool> grouped{};
     bool instances = false;         ///< organs that look alike are one shape in many places
     bool mesh_axes = false;         ///< axes are meshes where the format has curves
     std::string bark{};             ///< the texture of axes that wear none: a file

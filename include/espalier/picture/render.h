@@ -52,7 +52,7 @@ struct RenderJob {
 /// files.
 std::vector<std::filesystem::path> render_pictures(const RenderJob& job, const std::filesystem::path& path);
 
-/// .ogv is written here, .mp4, .webm and .gif by ffmpeg, if it is in PATH. Throws UserError for other extensions.
+/// .webm (VP9) is written here, .mp4 and .gif by ffmpeg, if it is in PATH. Throws UserError for other extensions.
 void render_film(const RenderJob& job, double pictures_per_second, const std::filesystem::path& path);
 /// True if `render_film` knows the extension.
 bool is_film(const std::filesystem::path& path);

@@ -17,6 +17,7 @@ class Espalier < Formula
   depends_on "expat"
   depends_on "fmt"
   depends_on "libpng"
+  depends_on "libvpx"
   depends_on "lz4"
   depends_on "nlopt"
   depends_on "openvdb"

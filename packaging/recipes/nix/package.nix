@@ -13,6 +13,7 @@
   fmt,
   glm,
   libpng,
+  libvpx,
   lz4,
   nlohmann_json,
   nlopt,
@@ -48,6 +49,7 @@ stdenv.mkDerivation (finalAttrs: {
     fmt
     glm
     libpng
+    libvpx
     lz4
     nlohmann_json
     nlopt

@@ -37,6 +37,7 @@ class Espalier(CMakePackage):
     with when("+look"):
         depends_on("boost@1.74:")
         depends_on("cmark")
+        depends_on("libvpx")
         depends_on("nlopt")
         depends_on("qhull")
         depends_on("vtk@9.1:")

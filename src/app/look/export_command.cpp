@@ -55,8 +55,10 @@ public:
             .add_option("--rate", rate_, "gltf, usd: steps per second of growth as an animation")
             ->check(CLI::Range(0.01, 1000.0))
             ->capture_default_str();
-        app().add_flag("--grouped", grouped_,
-                       "gltf: in animations, what is born and dies at the same steps is one object");
+        grouped_option_ =
+            app().add_flag("--grouped,!--no-grouped", grouped_,
+                           "gltf: in animations, what is born and dies at the same steps is one object, or none is; "
+                           "default: from 5,000 internodes and organs on");
         app().add_flag(
             "--voxel-corners", voxel_corners_,
             "vdb: a voxel stands where its lower corner is, as Blender draws it; default: where its centre is");
@@ -94,7 +96,7 @@ Examples:
         mesh_.put_into(job);
         if (!plant_.empty()) job.options.plant = recorded.plant(plant_);
         job.steps_per_second = rate_;
-        job.grouped = grouped_;
+        if (grouped_option_->count() > 0) job.grouped = grouped_;
         job.voxel_corners = voxel_corners_;
         if (!quiet_) name_unused(target.formats);
         job.keep = keep_;
@@ -149,6 +151,7 @@ private:
     std::vector<std::string> formats_;
     std::string step_ = "last", plant_;
     double rate_ = 24;
+    CLI::Option* grouped_option_ = nullptr;
     bool grouped_ = false, voxel_corners_ = false, keep_ = false, quiet_ = false;
     MeshFileOptions mesh_;
 };

@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t pictures_of_a_turn = 72;
+constexpr std::size_t pictures_of_a_turn = 72, pictures_of_a_film = 100;
 constexpr double sun_with_sky = 40, eye_with_sky = 4;  // degrees: the horizon is low, and behind the plants is the sky
 
 std::atomic<bool> interrupt{false};
@@ -155,12 +155,16 @@ private:
     void add_output_options() {
         app().add_option(
             "--output", output_,
-            "a picture: .png; or a film, with ffmpeg: .webm, .mp4, .gif; without: .ogv; default: RUN/render.png");
+            "a picture: .png; or a film: .webm, which browsers play; with ffmpeg .mp4, .gif; default: RUN/render.png");
         app().add_option("--step", step_,
-                         std::string(frame_option_help) + "; default: last for a picture, all for a film or a sheet");
+                         std::string(frame_option_help) +
+                             "; default: last for a picture; all for a sheet, and for a film 100 of them");
         app().add_option("--sheet", sheet_, "COLUMNSxROWS frames on one page, evenly chosen from those of --step");
         app()
-            .add_option("--frames", frames_, "number of pictures in a film, evenly chosen from those of --step")
+            .add_option(
+                "--frames", frames_,
+                "number of pictures in a film, evenly chosen from those of --step; default: those of --step, else "
+                "at most 100")
             ->check(CLI::Range(1, 100000));
         app()
             .add_option("--between", between_,
@@ -261,7 +265,8 @@ private:
     void place_camera(RenderJob& job) {
         const bool is_turned = app().count("--azimuth") > 0 || app().count("--elevation") > 0;
         job.camera.front_if_flat = !is_turned;
-        job.style.sun_azimuth = camera_.azimuth - 50;
+        if (!is_turned && orbit_ == 0) face_slices(job);
+        job.style.sun_azimuth = job.camera.azimuth - 50;
         if (light_.is_on()) job.style.sun_elevation = sun_with_sky;
         if (light_.is_on() && app().count("--elevation") == 0) job.camera.elevation = eye_with_sky;
         const auto& view = job.run.view();
@@ -269,6 +274,18 @@ private:
         job.camera = camera_of(*view);
         job.camera.zoom = camera_.zoom;
         light_as(*view, job.style);
+    }
+
+    /// Slices across one axis are seen from the front, where no camera was asked for: at an angle they are strips.
+    void face_slices(RenderJob& job) const {
+        const std::vector<FieldLook>& fields = job.style.fields;
+        const auto lies_alike = [&](const FieldLook& field) {
+            return field.kind == FieldLook::Kind::slice && field.axis == fields.front().axis;
+        };
+        if (fields.empty() || !std::all_of(fields.begin(), fields.end(), lies_alike)) return;
+        job.camera.front_if_flat = false;
+        job.camera.azimuth = fields.front().axis == 'x' ? 90 : 0;
+        job.camera.elevation = fields.front().axis == 'y' ? 90 : 0;
     }
 
     int grow() {
@@ -341,8 +358,10 @@ private:
         }
         job.size = picture_.size({800, 600});
         const bool turns_only = job.frames.size() == 1 && orbit_ != 0;
-        const std::size_t count = frames_ > 0 ? static_cast<std::size_t>(frames_) : turns_only ? pictures_of_a_turn : 0;
-        if (count > 0) job.frames = evenly(job.frames, count);
+        std::size_t count = turns_only ? pictures_of_a_turn : job.frames.size();
+        if (step_.empty()) count = std::min(count, pictures_of_a_film);
+        if (frames_ > 0) count = static_cast<std::size_t>(frames_);
+        if (count != job.frames.size()) job.frames = evenly(job.frames, count);
         job.between = between_;
         const auto pictures = static_cast<double>(job.frames.size()) * (between_ + 1);
         const double rate = rate_ > 0 ? rate_ : std::clamp(pictures / 10, 5.0, 30.0);
@@ -352,7 +371,7 @@ private:
 
     void require_no_between(const fs::path& output) const {
         if (between_ == 0) return;
-        throw UserError(fmt::format("--between {}: '{}' is no film; take --output growth.webm (or .mp4, .gif, .ogv)",
+        throw UserError(fmt::format("--between {}: '{}' is no film; take --output growth.webm (or .mp4, .gif)",
                                     between_, output.string()));
     }
 

@@ -32,8 +32,13 @@ Deviation deviation(const TubeNode& node, const TubeNode& from, const TubeNode& 
 /// Lets the nodes of a tube go one after the other, always where the least area changes.
 class Leaving {
 public:
-    Leaving(const TubeLine& line, const FrameAttributes& of_points, double borne)
-        : nodes_(line.nodes), of_(of_points), borne_(borne), before_(nodes_.size()), behind_(nodes_.size()) {
+    Leaving(const TubeLine& line, const FrameAttributes& of_points, double borne, double organs)
+        : nodes_(line.nodes),
+          of_(of_points),
+          borne_(borne),
+          organs_(organs),
+          before_(nodes_.size()),
+          behind_(nodes_.size()) {
         for (std::size_t i = 0; i < nodes_.size(); ++i) {
             before_[i] = i - 1;
             behind_[i] = i + 1;
@@ -84,7 +89,7 @@ private:
     }
 
     double area_changed(std::size_t from, std::size_t to) const {
-        double area = 0, out_of_wood = 0;
+        double area = 0, out_of_wood = 0, farthest = 0;
         Deviation last{0, 0};
         for (std::size_t i = from + 1; i <= to; ++i) {
             Deviation now = deviation(nodes_[i], nodes_[from], nodes_[to]);
@@ -95,14 +100,23 @@ private:
             const double moved = (last.middle + now.middle) / 2 + last.radius + now.radius;
             if (width > 0) area += 2 * area_of_piece(nodes_[i - 1], nodes_[i]) * std::min(1.0, moved / width);
             out_of_wood = std::max(out_of_wood, now.middle / std::max(1e-9, double(nodes_[i].radius)) - 1);
+            farthest = std::max(farthest, now.middle);
             last = now;
         }
-        return area + borne_ * std::clamp(out_of_wood, 0.0, 1.0);
+        const double length = std::max(1e-9, double(glm::distance(nodes_[from].position, nodes_[to].position)));
+        return area + borne_ * std::clamp(out_of_wood, 0.0, 1.0) +
+               organs_above(from) * std::min(1.0, farthest / length);
+    }
+
+    /// Wood is as thick as what it bears (the pipe model of Shinozaki et al. 1964).
+    double organs_above(std::size_t node) const {
+        const double share = nodes_[node].radius / std::max(1e-12F, nodes_.front().radius);
+        return organs_ * std::min(1.0, share * share);
     }
 
     const std::vector<TubeNode>& nodes_;
     const FrameAttributes& of_;
-    double borne_, tie_;
+    double borne_, organs_, tie_;
     std::vector<std::size_t> before_, behind_;  ///< of those that are left
     std::map<std::pair<std::size_t, std::size_t>, double> changed_;
     std::priority_queue<Change> changes_;
@@ -117,8 +131,8 @@ double outline_area(const TubeLine& line) {
 }
 
 std::vector<std::pair<double, std::size_t>> leaving_nodes(const TubeLine& line, const FrameAttributes& of_points,
-                                                          double borne) {
-    return Leaving(line, of_points, borne).order();
+                                                          double borne, double organs) {
+    return Leaving(line, of_points, borne, organs).order();
 }
 
 }  // namespace espalier::archive

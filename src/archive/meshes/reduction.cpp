@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -21,6 +22,7 @@ namespace {
 
 constexpr double slack = 0.05;  ///< by how much fewer triangles there may be than asked for
 constexpr double longest_growth = 2;
+constexpr double weight_of_trunk = 10;   ///< of a course: the eye sees a trunk lean by a tenth of what a limb may
 constexpr double side_of_outline = 0.2;  ///< a tube of fewer sides is as wide in the mean: its outline hardly changes
 constexpr int fewest_sides = 3, sides_of_line = 2;
 
@@ -60,17 +62,59 @@ std::vector<std::size_t> bearers(const std::vector<PlannedTube>& tubes) {
     return result;
 }
 
-/// The outline of all that stands on each tube.
-std::vector<double> borne_areas(const std::vector<PlannedTube>& tubes, const std::vector<std::size_t>& bearer) {
+/// To each tube's own amount those of all that stand on it.
+std::vector<double> with_borne(const std::vector<double>& own, const std::vector<std::size_t>& bearer) {
     constexpr int most_orders = 100;  // most orders of branching: crossing lines may seem to bear each other
-    std::vector<double> areas(tubes.size(), 0);
-    for (std::size_t i = 0; i < tubes.size(); ++i) {
-        const double own = outline_area(tubes[i].line);
+    std::vector<double> sums = own;
+    for (std::size_t i = 0; i < own.size(); ++i) {
         std::size_t at = i;
-        for (int order = 0; order < most_orders && bearer[at] != at; ++order) areas[at = bearer[at]] += own;
+        for (int order = 0; order < most_orders && bearer[at] != at; ++order) sums[at = bearer[at]] += own[i];
     }
-    return areas;
+    return sums;
 }
+
+/// Finds the tube of a plant that passes nearest to a place.
+class NearestTube {
+public:
+    NearestTube(const std::vector<PlannedTube>& tubes, const FrameAttributes& of_points) {
+        for (std::size_t i = 0; i < tubes.size(); ++i) {
+            for (const TubeNode& node : tubes[i].line.nodes) {
+                nodes_[of_points.plants[node.point.row()]].push_back({node.position, i});
+            }
+        }
+        for (auto& [plant, nodes] : nodes_) std::sort(nodes.begin(), nodes.end(), lower);
+    }
+
+    std::optional<std::size_t> of(std::uint32_t plant, const glm::vec3& place) const {
+        const auto found = nodes_.find(plant);
+        if (found == nodes_.end()) return std::nullopt;
+        const std::vector<Node>& nodes = found->second;
+        const Node *nearest = nullptr, *const begin = nodes.data(), *const end = begin + nodes.size();
+        double least = std::numeric_limits<double>::infinity();
+        const auto look = [&](const Node& node) {  // false: what lies farther up or down cannot be nearer
+            if (std::abs(double(node.place.y) - place.y) > least) return false;
+            const double distance = glm::distance(node.place, place);
+            if (distance < least) nearest = &node, least = distance;
+            return true;
+        };
+        const Node* const middle = std::lower_bound(begin, end, Node{place, 0}, lower);
+        for (const Node* node = middle; node != end && look(*node);) ++node;
+        for (const Node* node = middle; node != begin && look(*(node - 1));) --node;
+        return nearest ? std::optional(nearest->tube) : std::nullopt;
+    }
+
+private:
+    struct Node {
+        glm::vec3 place;
+        std::size_t tube;
+    };
+
+    static bool lower(const Node& a, const Node& b) {
+        return std::tie(a.place.y, a.tube) < std::tie(b.place.y, b.tube);
+    }
+
+    std::map<std::uint32_t, std::vector<Node>> nodes_;
+};
 
 double area_of(const FrameMesh& mesh, const MeshPart& organ) {
     double area = 0;
@@ -88,6 +132,7 @@ public:
         int fewest_sides;
         double longest_growth;  ///< longest growth of organs that stay
         bool keeps_outline;     ///< what counts is the area that changes, and an axis goes after what stands on it
+        char up = 'y';          ///< vertical of the organs
     };
 
     Reduction(std::vector<PlannedTube>& tubes, FrameMesh& organs, const FrameAttributes& of_points,
@@ -100,8 +145,8 @@ public:
         }
         for (std::size_t i = 0; i < organs_.parts.size(); ++i) add_organ(i);
         of_organs_ = areas_of_organs(of_points);
-        const std::vector<double> areas = limits_.keeps_outline ? borne_areas(tubes_, bearer_) : std::vector<double>();
-        for (std::size_t i = 0; i < tubes_.size(); ++i) add_tube(i, of_points, areas);
+        const std::vector<double> borne = areas_borne();
+        for (std::size_t i = 0; i < tubes_.size(); ++i) add_tube(i, of_points, borne);
         add_removals();
     }
 
@@ -167,7 +212,8 @@ private:
         for (const TubeNode& node : line.nodes) state.thickest = std::max(state.thickest, node.radius);
         state.area = outline_area(line);
         if (limits_.keeps_outline) {
-            state.leaving = leaving_nodes(line, of_points, borne[i]);
+            state.leaving =
+                leaving_nodes(line, of_points, borne[i], (bearer_[i] == i ? weight_of_trunk : 1) * of_organs_[i]);
             std::reverse(state.leaving.begin(), state.leaving.end());
         } else {
             const std::vector<double> errors = node_errors(line, of_points);
@@ -181,20 +227,27 @@ private:
         push_tube(i);
     }
 
-    // Without the tubes on which a plant stands its organs would hang in the air: each of those counts its share.
+    /// The organs on each tube and on all that it bears.
     std::vector<double> areas_of_organs(const FrameAttributes& of_points) const {
-        std::vector<double> result(tubes_.size(), 0);
-        if (!limits_.keeps_outline) return result;
-        const auto plant_of = [&](std::size_t tube) {
-            return of_points.plants[tubes_[tube].line.nodes.back().point.row()];
-        };
-        std::map<std::uint32_t, double> areas, feet;
-        for (std::size_t i = 0; i < organs_.parts.size(); ++i) areas[organs_.parts[i].plant] += organ_states_[i].area;
-        for (std::size_t i = 0; i < tubes_.size(); ++i) feet[plant_of(i)] += bearer_[i] == i;
-        for (std::size_t i = 0; i < tubes_.size(); ++i) {
-            if (bearer_[i] == i) result[i] = areas[plant_of(i)] / feet[plant_of(i)];
+        std::vector<double> own(tubes_.size(), 0);
+        if (!limits_.keeps_outline) return own;
+        const NearestTube tubes(tubes_, of_points);
+        for (std::size_t i = 0; i < organs_.parts.size(); ++i) {
+            const glm::vec3& foot = organs_.points[organs_.parts[i].first_vertex];
+            const glm::vec3 place = limits_.up == 'z' ? glm::vec3(foot.x, foot.z, -foot.y) : foot;
+            if (const auto tube = tubes.of(organs_.parts[i].plant, place)) own[*tube] += organ_states_[i].area;
         }
-        return result;
+        return with_borne(own, bearer_);
+    }
+
+    /// The outline of all that stands on each tube.
+    std::vector<double> areas_borne() const {
+        std::vector<double> own, borne;
+        if (!limits_.keeps_outline) return borne;
+        for (const PlannedTube& tube : tubes_) own.push_back(outline_area(tube.line));
+        borne = with_borne(own, bearer_);
+        for (std::size_t i = 0; i < borne.size(); ++i) borne[i] -= own[i];
+        return borne;
     }
 
     void add_organ(std::size_t i) {
@@ -400,7 +453,8 @@ private:
     OrganLevels shapes_;
     std::vector<TubeState> states_;
     std::vector<std::size_t> bearer_, borne_;  ///< the tube that each stands on, and how many stand on it
-    std::vector<double> of_organs_;            ///< area of organs that would hang in the air without a tube
+    std::vector<double>
+        of_organs_;  ///< area of organs that would hang in the air without a tube, those on what it bears, too
     std::vector<OrganState> organ_states_;
     std::priority_queue<Move> moves_;
     std::size_t count_ = 0;
@@ -408,9 +462,9 @@ private:
 
 }  // namespace
 
-void reduce(std::vector<PlannedTube>& tubes, FrameMesh& organs, const FrameAttributes& of_points,
-            std::size_t triangles) {
-    Reduction(tubes, organs, of_points, {fewest_sides, longest_growth, true}).run_to_count(triangles);
+void reduce(std::vector<PlannedTube>& tubes, FrameMesh& organs, const FrameAttributes& of_points, std::size_t triangles,
+            char up) {
+    Reduction(tubes, organs, of_points, {fewest_sides, longest_growth, true, up}).run_to_count(triangles);
 }
 
 void degrade(std::vector<PlannedTube>& tubes, FrameMesh& organs, const FrameAttributes& of_points, double tolerance) {

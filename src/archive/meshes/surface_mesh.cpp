@@ -75,7 +75,7 @@ public:
     void reduce(std::vector<PlannedTube>& tubes) {
         const FrameAttributes& of = geometry_.of_points;
         if (options_.distance > 0) degrade(tubes, mesh_, of, smallest_angle * options_.distance);
-        if (options_.triangles) archive::reduce(tubes, mesh_, of, *options_.triangles);
+        if (options_.triangles) archive::reduce(tubes, mesh_, of, *options_.triangles, options_.up);
     }
 
     FrameMesh take() {

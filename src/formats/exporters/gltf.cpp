@@ -199,7 +199,8 @@ public:
             const double seconds = (frame->step - job_.frames.front()->step) / job_.steps_per_second;
             times_.push_back(static_cast<float>(seconds));
         }
-        const std::size_t number = job_.grouped ? add_groups() : add_nodes();
+        const bool is_grouped = job_.grouped.value_or(nodes_.all().size() >= many);
+        const std::size_t number = is_grouped ? add_groups() : add_nodes();
         std::vector<std::size_t> roots;
         for (auto& [plant, children] : children_) {
             roots.push_back(
@@ -207,18 +208,20 @@ public:
         }
         const auto path = job_.path("glb", {vertices_, triangles_, 0, ""});
         write_text(path, glb_.bytes(roots));
-        if (job_.grouped) return {path, vertices_, triangles_, number, "groups that appear", glb_.hint()};
-        ExportedFile file{path, vertices_, triangles_, number, "moving internodes and organs", glb_.hint()};
-        constexpr std::size_t many = 2000;
-        if (number > many) {
+        if (!is_grouped) return {path, vertices_, triangles_, number, "moving internodes and organs", glb_.hint()};
+        ExportedFile file{path, vertices_, triangles_, number, "groups that appear", glb_.hint()};
+        if (!job_.grouped) {
             file.hint = joined_hints(
-                {file.hint,
-                 "many programs are slow with so many objects: --grouped makes one of what is born together"});
+                {file.hint, fmt::format("{} internodes and organs would be slow to load one by one: those that are "
+                                        "born together are one object; --no-grouped moves each",
+                                        nodes_.all().size())});
         }
         return file;
     }
 
 private:
+    static constexpr std::size_t many = 5000;  ///< programs take seconds to load so many objects
+
     std::size_t add_nodes() {
         std::size_t number = 0;
         for (const GrowthNode& node : nodes_.all()) {
@@ -357,9 +360,10 @@ const Registered<ExporterType> entry{
      "file in which every\n"
      "internode and organ is a node that appears at its birth, moves, grows and vanishes, --rate steps a second; it "
      "has\n"
-     "the shape and colour it was last seen in, an internode a taper to a sixteenth. --grouped: what is born and dies "
-     "at\n"
-     "the same steps is one object that appears as it was last seen. --instances, of one frame: organs that look "
+     "the shape and colour it was last seen in, an internode a taper to a sixteenth. --grouped, and from 5,000 "
+     "internodes\n"
+     "and organs on unless --no-grouped: what is born and dies at the same steps is one object that appears as it was "
+     "last\nseen. --instances, of one frame: organs that look "
      "alike\n"
      "are one mesh in many places (EXT_mesh_gpu_instancing). The vertical is y, as glTF says.\n"
      "Lost: parameters; in animations smooth joints and textures of axes, and --simplify means nothing",

@@ -6,12 +6,10 @@
 
 #include "base/platform.h"
 #include "base/text.h"
-#include "picture/files/listening.h"
+#include "picture/files/vp9_film.h"
 
 #include <fmt/format.h>
 #include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkOggTheoraWriter.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -29,37 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class TheoraFilm final : public Film {
-public:
-    TheoraFilm(const fs::path& path, double pictures_per_second) : path_(path) {
-        writer_->SetFileName(path.c_str());
-        writer_->SetRate(std::max(1, static_cast<int>(std::lround(pictures_per_second))));
-        writer_->SetQuality(2);
-    }
-
-    void add(vtkImageData& picture) override {
-        const Listening listening;
-        writer_->SetInputData(&picture);
-        if (!std::exchange(started_, true)) writer_->Start();
-        writer_->Write();
-        if (writer_->GetError() != 0 || !listening.errors().empty()) fail();
-    }
-
-    void finish() override {
-        const Listening listening;
-        if (started_) writer_->End();
-        std::error_code ignored;
-        if (writer_->GetError() != 0 || !listening.errors().empty() || fs::file_size(path_, ignored) == 0) fail();
-    }
-
-private:
-    [[noreturn]] void fail() const { throw RunError(fmt::format("cannot write {}", path_.string())); }
-
-    fs::path path_;
-    bool started_ = false;
-    vtkNew<vtkOggTheoraWriter> writer_;
-};
-
 // What a pixel's brightness and colour differences mean. Where a film does not say so, browsers guess, each in its own
 // way: a green of 108 becomes 103 or 110.
 constexpr const char* with_even_sides =
@@ -76,10 +43,7 @@ std::vector<std::string> encoding_of(const std::string& extension) {
     }
     std::vector<std::string> words{"-vf", with_even_sides};
     words.insert(words.end(), tags.begin(), tags.end());
-    const std::vector<std::string> codec =
-        extension == ".webm" ? std::vector<std::string>{"-c:v", "libvpx-vp9", "-row-mt", "1", "-crf", "30", "-b:v", "0"}
-                             : std::vector<std::string>{"-c:v", "libx264", "-crf", "18", "-movflags", "+faststart"};
-    words.insert(words.end(), codec.begin(), codec.end());
+    words.insert(words.end(), {"-c:v", "libx264", "-crf", "18", "-movflags", "+faststart"});
     return words;
 }
 
@@ -88,7 +52,7 @@ constexpr const char* ffmpeg = "ffmpeg";
 [[noreturn]] void reject_without_ffmpeg(const fs::path& path, const std::error_code& error) {
     throw RunError(
         fmt::format("{} is written by ffmpeg, which is not here ({}).\n"
-                    "On Debian: apt-get install ffmpeg; .ogv (Theora) needs nothing more, but browsers do not play it",
+                    "On Debian: apt-get install ffmpeg; .webm needs nothing more",
                     path.extension().string(), error.message()));
 }
 
@@ -178,12 +142,12 @@ std::string kind_of_file(const fs::path& path) {
 }
 
 void require_film_writer(const fs::path& path) {
-    if (kind_of_file(path) != ".ogv" && !is_in_path(ffmpeg))
+    if (kind_of_file(path) != ".webm" && !is_in_path(ffmpeg))
         reject_without_ffmpeg(path, std::make_error_code(std::errc::no_such_file_or_directory));
 }
 
 std::unique_ptr<Film> film_of(const fs::path& path, const PictureSize& size, double pictures_per_second) {
-    if (kind_of_file(path) == ".ogv") return std::make_unique<TheoraFilm>(path, pictures_per_second);
+    if (kind_of_file(path) == ".webm") return vp9_film(path, size, pictures_per_second);
     return std::make_unique<FfmpegFilm>(path, size, pictures_per_second);
 }
 

@@ -20,7 +20,7 @@ public:
     virtual void finish() = 0;
 };
 
-/// What the extension says: .webm (VP9), .mp4 (H.264) and .gif are written by ffmpeg, .ogv (Theora) by VTK itself.
+/// What the extension says: .webm (VP9) is written here, .mp4 (H.264) and .gif by ffmpeg.
 /// Throws RunError saying what to install if there is none.
 std::unique_ptr<Film> film_of(const std::filesystem::path& path, const PictureSize& size, double pictures_per_second);
 

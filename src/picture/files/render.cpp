@@ -231,13 +231,13 @@ fs::path numbered(const fs::path& path, int step) {
 
 bool is_film(const fs::path& path) {
     const std::string extension = kind_of_file(path);
-    return extension == ".ogv" || extension == ".mp4" || extension == ".webm" || extension == ".gif";
+    return extension == ".webm" || extension == ".mp4" || extension == ".gif";
 }
 
 void require_png(const fs::path& path) {
     if (kind_of_file(path) == ".png") return;
     throw UserError(
-        fmt::format("'{}' is no picture that can be written: .png, or a film: .webm, .mp4, .gif, .ogv", path.string()));
+        fmt::format("'{}' is no picture that can be written: .png, or a film: .webm, .mp4, .gif", path.string()));
 }
 
 std::vector<std::string> colours_of_every_run() {
@@ -278,7 +278,7 @@ std::vector<fs::path> render_pictures(const RenderJob& job, const fs::path& path
 }
 
 void render_film(const RenderJob& job, double pictures_per_second, const fs::path& path) {
-    if (!is_film(path)) throw UserError(fmt::format("'{}' is no film: .webm, .mp4, .gif or .ogv", path.string()));
+    if (!is_film(path)) throw UserError(fmt::format("'{}' is no film: .webm, .mp4 or .gif", path.string()));
     RenderJob opaque = job;
     opaque.style.background.transparent = false;
     JobPainter painter(opaque);

@@ -15,24 +15,13 @@
 namespace espalier::picture {
 namespace {
 
-constexpr int sky_texels = 384, sun_texels = 1536;
-/// Triangles times directions: more triangles are seen from fewer directions.
-constexpr std::size_t budget = 30'000'000;
-constexpr std::size_t fewest_directions = 12, most_directions = 32;
+constexpr int sky_texels = 384, sun_texels = 1024;
+/// More triangles are seen from fewer directions. Few numbers of them, so that shadows do not flicker in a film.
+constexpr std::size_t few_triangles = 20'000, fewest_directions = 12, most_directions = 32;
 
 /// Spread evenly over the upper half of the sphere, from the zenith down.
 glm::vec3 sky_direction(std::size_t i, std::size_t count) {
     return glm::vec3(sunflower_direction(i, 1 - (static_cast<double>(i) + 0.5) / static_cast<double>(count)));
-}
-
-void fill(DepthMap& map, std::span<const Occluder> occluders) {
-    for (const Occluder& occluder : occluders) {
-        const auto corner = [&](std::size_t i) {
-            return occluder.points[static_cast<std::size_t>(occluder.corners[i])];
-        };
-        for (std::size_t i = 0; i + 2 < occluder.corners.size(); i += 3)
-            map.add(corner(i), corner(i + 1), corner(i + 2));
-    }
 }
 
 /// The lower and the upper corner of all.
@@ -51,7 +40,7 @@ std::array<glm::vec3, 2> corners_of(std::span<const Occluder> occluders) {
 std::size_t directions_for(std::span<const Occluder> occluders) {
     std::size_t triangles = 1;
     for (const Occluder& occluder : occluders) triangles += occluder.corners.size() / 3;
-    return std::clamp(budget / triangles, fewest_directions, most_directions);
+    return triangles <= few_triangles ? most_directions : fewest_directions;
 }
 
 }  // namespace
@@ -71,34 +60,64 @@ DepthMap::DepthMap(const glm::vec3& towards, int texels, const glm::vec3& lower,
     }
     origin_ = low;
     texel_ = std::max({high.x - low.x, high.y - low.y, 1e-12f}) / static_cast<float>(texels);
+    texels_per_metre_ = 1 / texel_;
     depths_.assign(static_cast<std::size_t>(texels) * static_cast<std::size_t>(texels),
                    -std::numeric_limits<float>::max());
 }
 
 glm::vec3 DepthMap::place(const glm::vec3& point) const {
-    return {(glm::dot(point, right_) - origin_.x) / texel_, (glm::dot(point, up_) - origin_.y) / texel_,
-            glm::dot(point, towards_)};
+    const glm::vec2 across(glm::dot(point, right_), glm::dot(point, up_));
+    return {(across - origin_) * texels_per_metre_, glm::dot(point, towards_)};
+}
+
+// Triangles share corners: each is placed once.
+void DepthMap::add(const Occluder& occluder) {
+    std::vector<glm::vec3> placed;
+    placed.reserve(occluder.points.size());
+    for (const glm::vec3& point : occluder.points) placed.push_back(place(point));
+    const auto corner = [&](std::size_t i) { return placed[static_cast<std::size_t>(occluder.corners[i])]; };
+    for (std::size_t i = 0; i + 2 < occluder.corners.size(); i += 3) cover(corner(i), corner(i + 1), corner(i + 2));
 }
 
 // Texels whose middle lies inside take part, so that what is thinner than a texel covers its share of them.
-void DepthMap::add(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-    const glm::vec3 p = place(a), q = place(b), r = place(c);
+void DepthMap::cover(const glm::vec3& p, const glm::vec3& q, const glm::vec3& r) {
     const float area = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
     if (!(std::abs(area) > 0) || !std::isfinite(area)) return;
     const auto first = [&](float low) { return std::max(0, static_cast<int>(std::ceil(low - 0.5f))); };
     const auto last = [&](float high) { return std::min(texels_ - 1, static_cast<int>(std::floor(high - 0.5f))); };
     const int x0 = first(std::min({p.x, q.x, r.x})), x1 = last(std::max({p.x, q.x, r.x}));
     const int y0 = first(std::min({p.y, q.y, r.y})), y1 = last(std::max({p.y, q.y, r.y}));
+    // Shares of the corners at so many texels across and up from p. Rows are cut to where all are positive: the box of
+    // what is long, thin and aslant is mostly empty.
+    const glm::vec2 of_q = glm::vec2(r.y - p.y, p.x - r.x) / area, of_r = glm::vec2(p.y - q.y, q.x - p.x) / area;
+    const float deeper = of_q.x * (q.z - p.z) + of_r.x * (r.z - p.z);
     for (int y = y0; y <= y1; ++y) {
-        for (int x = x0; x <= x1; ++x) {
-            const float mx = static_cast<float>(x) + 0.5f, my = static_cast<float>(y) + 0.5f;
-            const float of_q = ((mx - p.x) * (r.y - p.y) - (my - p.y) * (r.x - p.x)) / area;
-            const float of_r = ((q.x - p.x) * (my - p.y) - (q.y - p.y) * (mx - p.x)) / area;
-            if (of_q < 0 || of_r < 0 || of_q + of_r > 1) continue;
-            float& depth =
-                depths_[static_cast<std::size_t>(y) * static_cast<std::size_t>(texels_) + static_cast<std::size_t>(x)];
-            depth = std::max(depth, p.z + of_q * (q.z - p.z) + of_r * (r.z - p.z));
-        }
+        const float up = static_cast<float>(y) + 0.5f - p.y;
+        float low = static_cast<float>(x0), high = static_cast<float>(x1);
+        const auto cut = [&](float slope, float at_p) {
+            const float zero = p.x - 0.5f - at_p / slope;
+            if (slope > 0) low = std::max(low, zero - 1);  // a texel more, for rounding
+            if (slope < 0) high = std::min(high, zero + 1);
+        };
+        cut(of_q.x, up * of_q.y);
+        cut(of_r.x, up * of_r.y);
+        cut(-of_q.x - of_r.x, 1 - up * (of_q.y + of_r.y));
+        if (!(low <= high)) continue;
+        float* const row = depths_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(texels_);
+        const auto shares = [&](int x) {
+            const float across = static_cast<float>(x) + 0.5f - p.x;
+            return glm::vec2(across * of_q.x + up * of_q.y, across * of_r.x + up * of_r.y);
+        };
+        const auto is_inside = [&](int x) {
+            const glm::vec2 share = shares(x);
+            return share.x >= 0 && share.y >= 0 && share.x + share.y <= 1;
+        };
+        int from = static_cast<int>(low), to = static_cast<int>(high);
+        while (from <= to && !is_inside(from)) ++from;
+        while (from <= to && !is_inside(to)) --to;
+        const glm::vec2 share = shares(from);
+        const float depth = p.z + share.x * (q.z - p.z) + share.y * (r.z - p.z);
+        for (int x = from; x <= to; ++x) row[x] = std::max(row[x], depth + static_cast<float>(x - from) * deeper);
     }
 }
 
@@ -139,8 +158,10 @@ SkyVisibility::SkyVisibility(std::span<const Occluder> occluders, const glm::vec
 }
 
 void SkyVisibility::add(std::span<const Occluder> occluders) {
-    tbb::parallel_for(std::size_t{0}, sky_.size() + 1,
-                      [&](std::size_t i) { fill(i < sky_.size() ? sky_[i] : sun_[0], occluders); });
+    tbb::parallel_for(std::size_t{0}, sky_.size() + 1, [&](std::size_t i) {
+        DepthMap& map = i < sky_.size() ? sky_[i] : sun_[0];
+        for (const Occluder& occluder : occluders) map.add(occluder);
+    });
 }
 
 float SkyVisibility::sky(const glm::vec3& point, const glm::vec3& normal, bool both_sides) const {

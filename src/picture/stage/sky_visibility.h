@@ -11,13 +11,19 @@
 
 namespace espalier::picture {
 
+/// Triangles whose corners index points.
+struct Occluder {
+    std::span<const glm::vec3> points;
+    std::span<const std::int32_t> corners;  ///< three a triangle
+};
+
 /// Depths of what a direction sees first, in parallel projection.
 class DepthMap {
 public:
     /// `towards`: the unit vector to the light. `texels` along a side.
     DepthMap(const glm::vec3& towards, int texels, const glm::vec3& lower, const glm::vec3& upper);
 
-    void add(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+    void add(const Occluder& occluder);
     /// The share of `reach` texels to each side, and the one in the middle, that see past the point's own surroundings.
     float open(const glm::vec3& point, int reach) const;
 
@@ -26,18 +32,14 @@ public:
 
 private:
     glm::vec3 place(const glm::vec3& point) const;
+    /// A triangle whose corners are placed.
+    void cover(const glm::vec3& p, const glm::vec3& q, const glm::vec3& r);
 
     glm::vec3 towards_, right_, up_;
     glm::vec2 origin_{0};
-    float texel_;
+    float texel_, texels_per_metre_;
     int texels_;
     std::vector<float> depths_;
-};
-
-/// Triangles whose corners index points.
-struct Occluder {
-    std::span<const glm::vec3> points;
-    std::span<const std::int32_t> corners;  ///< three a triangle
 };
 
 /// The unit vector to a light at so many degrees round the vertical (0: from +z) and above the horizon.

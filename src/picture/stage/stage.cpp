@@ -45,17 +45,6 @@ constexpr Rgb bright{255, 60, 0}, ink{30, 30, 30}, chalk{235, 235, 235};
 constexpr std::size_t most_labels = 300;
 const std::string none;
 
-double diagonal(const Box& box) {
-    return box.empty() ? 1 : std::max(glm::length(box.upper - box.lower), 1e-9);
-}
-
-/// Also with what thickness its organs have.
-bool is_flat_box(const Box& box) {
-    if (box.empty()) return false;
-    const glm::dvec3 size = box.upper - box.lower;
-    return size.z <= 0.02 * std::max(size.x, size.y);
-}
-
 /// The time as a reader wants it: "step 12", or "6 days" where a scene says how long a step is.
 std::string time_text(const RecordedRun& run, const RecordedFrame& frame) {
     if (run.time_unit() == "step") return fmt::format("step {}", frame.step);
@@ -75,8 +64,6 @@ public:
     Body(const RecordedRun& run, PictureStyle style) : run_(&run) {
         restyle(std::move(style));
         renderer_->AddActor(legend_actor_);
-        // What is seen through is drawn in its order; VTK's quicker way draws it over what stands before it.
-        renderer_->SetUseDepthPeeling(1);
         renderer_->SetMaximumNumberOfPeels(6);
         renderer_->SetOcclusionRatio(0);
         legend_actor_->GetScene()->AddItem(legend_);
@@ -247,6 +234,8 @@ private:
         if (!whole) add_survey(*frame_, *geometry_, here_);
         legend_->legend = {};
         build_meshes();
+        // What is seen through is drawn in its order; VTK's quicker way draws it over what stands before it.
+        renderer_->SetUseDepthPeeling(whole || shows_more_than_ground());
         if (!style_.light) add_lights_and_colours(whole);
         if (style_.light && !style_.fields.empty()) add_silhouettes();
         add_field_props();
@@ -350,9 +339,19 @@ private:
     void add_ground(const SkyVisibility* visibility) {
         const auto disc = ground_disc();
         if (!disc) return;
-        others_.push_back(
-            ground_actor(disc->middle, disc->radius, visibility, style_.background, shows_roots() ? clear_ground : 1));
-        renderer_->AddViewProp(others_.back());
+        const auto ground =
+            ground_actor(disc->middle, disc->radius, visibility, style_.background, shows_roots() ? clear_ground : 1);
+        if (!renderer_->GetUseDepthPeeling()) ground->SetForceOpaque(true);
+        others_.push_back(ground);
+        renderer_->AddViewProp(ground);
+    }
+
+    /// Among what is seen through. The ground alone needs no order, which takes half of a picture's time: it is drawn
+    /// after all else.
+    bool shows_more_than_ground() const {
+        const auto is_textured = [&](const Part& part) { return !texture_file(part.mesh).empty(); };
+        return !style_.fields.empty() || here_.has_labels || run_->background() ||
+               std::any_of(parts_.begin(), parts_.end(), is_textured);
     }
 
     /// None where nothing is shown.

@@ -1,5 +1,7 @@
 #include "picture/stage/stage_survey.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -133,6 +135,16 @@ PictureBackground chosen_background(const RecordedRun& run, const StageSurvey& s
                                     const PictureBackground& otherwise) {
     if (run.view() && run.view()->background) return {*run.view()->background, otherwise.transparent};
     return survey.wants_dark() ? dark_background : otherwise;
+}
+
+double diagonal(const Box& box) {
+    return box.empty() ? 1 : std::max(glm::length(box.upper - box.lower), 1e-9);
+}
+
+bool is_flat_box(const Box& box) {
+    if (box.empty()) return false;
+    const glm::dvec3 size = box.upper - box.lower;
+    return size.z <= 0.02 * std::max(size.x, size.y);
 }
 
 }  // namespace espalier::picture

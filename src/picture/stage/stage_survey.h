@@ -14,4 +14,9 @@ void add_survey(const RecordedRun& run, const PictureStyle& style, const Colouri
 PictureBackground chosen_background(const RecordedRun& run, const StageSurvey& survey,
                                     const PictureBackground& otherwise);
 
+/// Of a box, m; 1 of an empty one.
+double diagonal(const Box& box);
+/// True of what lies in the plane x y, with the thickness that organs have.
+bool is_flat_box(const Box& box);
+
 }  // namespace espalier::picture

@@ -10,7 +10,7 @@ namespace espalier::studio {
 
 /// Letters that need no escape in a page or in JSON, with which texts are written.
 inline constexpr std::string_view page_letters =
-    "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%()*+,-./:;=?@[]^_{|}";
+    "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%()*+,-./:;=?@[]^_{|";
 
 /// Four bytes in five letters, the first the greatest; fewer bytes at the end in one letter more.
 std::string in_letters(std::string_view bytes);
