@@ -373,7 +373,7 @@ TEST_CASE("render: masks lie beside pictures, and films and sheets have none", "
                                 Contains("two-0004-organs.csv\n") && Contains("two-0004-camera.json\n"));
     CHECK(place.bytes("two-0004-organ.npy").size() == 128 + 4 * 32 * 24);
     CHECK(place.bytes("two-0004-plant.png").substr(1, 3) == "PNG");
-    for (const char* words : {"--sheet 2x2 --output x.png", "--output x.ogv"}) {
+    for (const char* words : {"--sheet 2x2 --output x.png", "--output x.webm"}) {
         const Outcome wrong = place.run(std::string("render run --masks ") + words);
         CHECK(wrong.code == 1);
         CHECK_THAT(wrong.err, Contains("films and sheets have no masks"));

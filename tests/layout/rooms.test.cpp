@@ -152,7 +152,7 @@ const std::map<std::string, std::vector<Room>> stations{
          {"growth", "packets protocol document"},
          {"session", "packets protocol document growth"},
          {"lesson", "document session"},
-         {"server", "protocol growth session"},
+         {"server", "packets protocol growth session"},
          {"session/requests", "document session"},
      }},
     {"python",
