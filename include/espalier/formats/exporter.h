@@ -40,7 +40,7 @@ struct ExportJob {
     std::string name{};  ///< name of the files; empty: the scene's, and the step of a frame that has a file of its own
 
     // Options that only some formats use.
-    double steps_per_second = 24;   ///< speed of growth as an animation
+    double steps_per_second = 24;  ///< speed of growth as an animation
     /// Growth: organs that are born and die together are one object. None: where there are many, as the format says.
     std::optional<bool> grouped{};
     bool instances = false;         ///< organs that look alike are one shape in many places
