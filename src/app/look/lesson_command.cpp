@@ -1,12 +1,11 @@
 // lesson: a page that teaches, from a text.
 #include "espalier/base/error.h"
-#include "espalier/base/file.h"
 
 #include "app/command.h"
 #include "app/model_library.h"
 #include "app/options.h"
-#include "base/folder.h"
 #include "base/text.h"
+#include "html_file.h"
 #include "studio/lesson/lesson_growth.h"
 #include "studio/server/live_page.h"
 #include "studio_documents.h"
@@ -110,11 +109,7 @@ private:
             studio::json_of_lesson(lesson)};
         const std::string page = studio::live_page(growth);
         const fs::path output = output_.empty() ? fs::path(lesson.file.stem()).concat(".html") : output_;
-        if (output.extension() != ".html") {
-            throw UserError(fmt::format("--output {}: expected the name of a .html file", output.string()));
-        }
-        if (output.has_parent_path()) make_folder(output.parent_path());
-        write_text(output, page);
+        write_html(output, page);
         if (wants_json()) {
             const Json json{{"path", output.string()},
                             {"bytes", page.size()},

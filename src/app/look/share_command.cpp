@@ -1,6 +1,5 @@
 #include "espalier/archive/recorded_run.h"
 #include "espalier/base/error.h"
-#include "espalier/base/file.h"
 #include "espalier/base/read_log.h"
 #include "espalier/picture/render.h"
 #include "espalier/simulation/world.h"
@@ -8,8 +7,8 @@
 #include "app/command.h"
 #include "app/options.h"
 #include "archive/chosen_frames.h"
-#include "base/folder.h"
 #include "base/number.h"
+#include "html_file.h"
 #include "simulation/run/recorded_command.h"
 #include "studio/server/live_page.h"
 #include "studio/server/shared_page.h"
@@ -158,11 +157,7 @@ private:
 
     void write(const std::string& page, const fs::path& by_default, const std::string& what, std::size_t count) const {
         const fs::path output = output_.empty() ? by_default : output_;
-        if (output.extension() != ".html") {
-            throw UserError(fmt::format("--output {}: expected the name of a .html file", output.string()));
-        }
-        if (output.has_parent_path()) make_folder(output.parent_path());
-        write_text(output, page);
+        write_html(output, page);
         if (wants_json()) {
             const nlohmann::ordered_json json{
                 {"path", output.string()}, {is_live_ ? "files" : "frames", count}, {"bytes", page.size()}};
