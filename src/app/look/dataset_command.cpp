@@ -10,6 +10,7 @@
 #include "app/trust.h"
 #include "base/json_text.h"
 #include "base/platform.h"
+#include "living_line.h"
 #include "part_option.h"
 #include "study/dataset/dataset.h"
 
@@ -57,12 +58,10 @@ docs/datasets.md tells what the file may say, and shows how programs that learn 
         agree_on_programs(dataset.plan());
         const InterruptibleRun interruptible(quiet_);
         try {
-            dataset.make({part_.number(), part_.of()}, [&](std::size_t done, std::size_t all) { show(done, all); });
+            make(dataset);
         } catch (const Stopped&) {
-            end_line();
             return exit_code::interrupted;
         }
-        end_line();
         const std::size_t missing = dataset.to_do({}).size();
         if (missing > 0) {  // a part
             if (!quiet_) fmt::print(stderr, "{} of {} samples are still missing\n", missing, dataset.samples().size());
@@ -99,19 +98,16 @@ private:
         return exit_code::done;
     }
 
-    /// A living line on a terminal.
-    void show(std::size_t done, std::size_t all) {
-        if (quiet_ || wants_json() || !platform::has_terminal()) return;
-        const auto now = std::chrono::steady_clock::now();
-        if (done < all && now - drawn_at_ < std::chrono::milliseconds(100)) return;
-        drawn_at_ = now;
-        is_drawn_ = true;
-        const std::chrono::duration<double> passed = now - start_;
-        const double left = passed.count() * static_cast<double>(all - done) / static_cast<double>(done);
-        fmt::print(stderr, "\rsample {}/{}, {} left\033[K", done, all, duration_text(left));
-    }
-    void end_line() const {
-        if (is_drawn_) fmt::print(stderr, "\n");
+    void make(const study::Dataset& dataset) const {
+        const auto start = std::chrono::steady_clock::now();
+        LivingLine line(quiet_ || wants_json());
+        dataset.make({part_.number(), part_.of()}, [&](std::size_t done, std::size_t all) {
+            line.show(done >= all, [&] {
+                const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+                const double left = passed.count() * static_cast<double>(all - done) / static_cast<double>(done);
+                return fmt::format("sample {}/{}, {} left", done, all, duration_text(left));
+            });
+        });
     }
 
     void print(const study::Dataset::Summary& summary) const {
@@ -133,8 +129,7 @@ private:
     std::optional<std::size_t> samples_;
     std::optional<std::uint64_t> seed_;
     PartOption part_;
-    bool trust_ = false, quiet_ = false, is_drawn_ = false;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), drawn_at_ = start_;
+    bool trust_ = false, quiet_ = false;
 };
 
 const RegisteredCommand<DatasetCommand> dataset_entry{46};

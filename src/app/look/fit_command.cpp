@@ -12,6 +12,7 @@
 #include "base/folder.h"
 #include "base/json_text.h"
 #include "base/platform.h"
+#include "living_line.h"
 #include "part_option.h"
 #include "picture_options.h"
 #include "study/fit/fit.h"
@@ -22,36 +23,12 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace espalier::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// One living line on a terminal, nothing in a pipe.
-class FitLine {
-public:
-    explicit FitLine(bool quiet) : shown_(!quiet && platform::has_terminal()) {}
-    ~FitLine() {
-        if (drawn_) fmt::print(stderr, "\n");
-    }
-    FitLine(const FitLine&) = delete;
-    FitLine& operator=(const FitLine&) = delete;
-
-    void show(const std::string& doing, std::size_t done, std::size_t all) {
-        const auto now = std::chrono::steady_clock::now();
-        if (!shown_ || (done < all && now - drawn_at_ < std::chrono::milliseconds(100))) return;
-        drawn_at_ = now;
-        drawn_ = true;
-        fmt::print(stderr, "\r{} {}/{}\033[K", doing, grouped(done), grouped(all));
-    }
-
-private:
-    bool shown_, drawn_ = false;
-    std::chrono::steady_clock::time_point drawn_at_{};
-};
 
 constexpr const char* by_simulation = "By simulation (--method abc)";
 
@@ -107,9 +84,9 @@ Examples:
         if (task.growth.subject().is_scene()) ask_for_trust(task);
         if (part_.wants_list()) return print_commands();
         const InterruptibleRun interruptible(quiet_);
-        FitLine line(quiet_ || wants_json());
+        LivingLine line(quiet_ || wants_json());
         const study::FitProgress progress = [&](const std::string& doing, std::size_t done, std::size_t all) {
-            line.show(doing, done, all);
+            line.show(done >= all, [&] { return fmt::format("{} {}/{}", doing, grouped(done), grouped(all)); });
         };
         std::optional<study::FitResult> result;
         try {
