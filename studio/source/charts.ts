@@ -49,6 +49,7 @@ export class ChartsPanel {
     );
     studio.on("statistics", () => this.later());
     studio.on("theme", () => this.later());
+    studio.on("measured", () => this.later());
     studio.on("shown", () => this.plots.forEach(showStep));
     new ResizeObserver(() => this.later()).observe(this.element);
   }
@@ -115,12 +116,14 @@ export class ChartsPanel {
   }
 
   private chart(name: string, width: number): void {
-    const steps = [...new Set([...stepsOf(this.studio.statistics), ...(this.pinned ? stepsOf(this.pinned) : [])])].sort(
-      (a, b) => a - b,
-    );
+    const measured = measuredOf(this.studio, name);
+    const steps = [
+      ...new Set([...stepsOf(this.studio.statistics), ...(this.pinned ? stepsOf(this.pinned) : []), ...measured.keys()]),
+    ].sort((a, b) => a - b);
     const curves = [
       ...curvesOf(this.studio.statistics, name, steps, false),
       ...(this.pinned ? curvesOf(this.pinned, name, steps, true) : []),
+      ...(measured.size > 0 ? [{ name: "measured", dots: true, colour: 5, values: steps.map((step) => measured.get(step) ?? null) }] : []),
     ];
     const unit = this.studio.statistics.units[name];
     const place = h("figure", "chart", {}, h("figcaption", "", {}, name.replaceAll("_", " "), unit ? h("small", "", {}, ` ${unit}`) : ""));
@@ -147,6 +150,30 @@ export class ChartsPanel {
 
 function stepsOf({ rows }: Statistics): number[] {
   return rows.map((row) => Number(row[0]));
+}
+
+/** What was measured of a column, by steps; a time lies between two of them. */
+function measuredOf({ measured, statistics }: Studio, column: string): Map<number, number> {
+  const time = statistics.columns.indexOf("time");
+  const times = statistics.rows.map((row) => [Number(row[time]), Number(row[0])] as const);
+  const values = new Map<number, number>();
+  for (const { by, course } of measured) {
+    for (const one of course) {
+      if (one.column !== column) continue;
+      const step = by === "step" ? one.at : stepAt(times, one.at);
+      if (step !== null) values.set(step, one.value);
+    }
+  }
+  return values;
+}
+
+function stepAt(times: (readonly [number, number])[], time: number): number | null {
+  const next = times.findIndex(([of]) => of >= time);
+  const after = times[next];
+  const before = times[next - 1] ?? after;
+  if (!after || !before) return null;
+  const span = after[0] - before[0];
+  return span > 0 ? before[1] + ((time - before[0]) / span) * (after[1] - before[1]) : after[1];
 }
 
 /** One curve, or one for each plant if the statistics tell plants apart. */

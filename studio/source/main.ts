@@ -2,6 +2,7 @@
 import { Changes } from "./changes.js";
 import { ChartsPanel } from "./charts.js";
 import { Editor } from "./editor/editor.js";
+import { FitPanel } from "./fit.js";
 import { Gallery } from "./gallery.js";
 import { GraphPanel } from "./graph.js";
 import { Header } from "./header.js";
@@ -101,10 +102,12 @@ function start(): void {
       { name: "Graph", content: graph.element },
       { name: "Organ", content: picked.element },
       { name: "Charts", content: charts.element },
+      { name: "Fit", content: new FitPanel(studio, changes).element },
     ],
     "right-tab",
   );
   tabs.offer("Graph", false);
+  tabs.offer("Fit", false);
   const title = lesson?.title ?? "";
   const header = new Header({ studio, changes, editor, layout, scene: viewport.scene, gallery: () => void gallery.show(), title });
   header.shared = () => viewport.hints.did("shared");
@@ -130,6 +133,7 @@ function start(): void {
   studio.on("connection", (state) => {
     if (state !== "open" || !first) return;
     first = false;
+    tabs.offer("Fit", studio.fits && lesson === null);
     void openAddress(studio).then((opened) => {
       if (!opened && !studio.opened) void gallery.show();
     });

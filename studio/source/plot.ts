@@ -8,6 +8,8 @@ export interface Curve {
   values: (number | null)[];
   dashed?: boolean;
   colour?: number;
+  /** What was measured: dots, and no line. */
+  dots?: boolean;
 }
 
 const colours = ["--chart-1", "--chart-2", "--chart-3", "--chart-4", "--chart-5", "--chart-6"];
@@ -87,7 +89,8 @@ export function plotOverSteps(place: HTMLElement, steps: number[], curves: Curve
           width: curve.dashed ? 1.5 : 2,
           value: (shown, _, series, cursor) => valueAt(shown, steps, series, cursor, options.step()),
           ...(curve.dashed ? { dash: [6, 4] } : hides(curves, index) ? { dash: [10, 10] } : {}),
-          points: { show: steps.length < 3 },
+          points: { show: curve.dots === true || steps.length < 3, ...(curve.dots ? { size: 7 } : {}) },
+          ...(curve.dots ? { paths: () => null } : {}),
           spanGaps: true,
         })),
       ],

@@ -58,6 +58,28 @@ export interface ExportRequest {
   triangles?: number;
 }
 
+/** the settings that are sought. */
+export interface FitRequest {
+  /** one at least. */
+  settings: SoughtSetting[];
+}
+
+/** a setting that is sought. */
+export interface SoughtSetting {
+  /** of a number. */
+  name: string;
+  /** that it may be. */
+  lowest: number;
+  /** that it may be. */
+  highest: number;
+}
+
+/** a file of what was measured. */
+export interface ForgetRequest {
+  /** as `measured` tells it. */
+  number: number;
+}
+
 /** a step of a growth. */
 export interface StepRequest {
   /** number of the growth. */
@@ -118,6 +140,8 @@ export interface Greeting {
   version: string;
   /** path of the document; empty: nothing is open. */
   opened: string;
+  /** it can fit what is open to what was measured. */
+  fits: boolean;
 }
 
 /** what the manual says of the parts of the program. */
@@ -270,6 +294,14 @@ export interface LookRequest {
   step: number | null;
   /** the growth whose packet of this step the page has. */
   held?: number | null;
+}
+
+/** a file of what was measured. */
+export interface MeasureRequest {
+  /** of the file; without `content`, its place below the opened folder. */
+  name: string;
+  /** its bytes in base64. */
+  content?: string;
 }
 
 /** a side file. */
@@ -674,6 +706,46 @@ export interface FieldName {
   meaning: string;
 }
 
+/** what came of a fit. */
+export interface FitEnd {
+  /** a note says why it failed. */
+  end: "done" | "stopped" | "failed";
+  /** empty unless it is done. */
+  settings: FittedSetting[];
+  /** of the best, beside the values of all files; null: it has none. */
+  predicted: (number | null)[];
+  /** what cannot be told apart, or is not decided. */
+  remarks: string[];
+  /** as that of the state. */
+  residual: number;
+  /** that were grown. */
+  worlds: number;
+}
+
+/** what a fit tells of a setting. */
+export interface FittedSetting {
+  /** of the setting. */
+  name: string;
+  /** the best. */
+  value: number;
+  /** standard error; null: a small change moves nothing. */
+  error: number | null;
+  /** by what was measured. */
+  decided: boolean;
+}
+
+/** how far a fit has come. */
+export interface FitState {
+  /** comparisons that were made. */
+  done: number;
+  /** at most so many will be. */
+  all: number;
+  /** of the best, root mean square in the scales of what was measured. */
+  residual: number;
+  /** the best values so far, by the names of settings. */
+  best: Record<string, number>;
+}
+
 /** how far a growth has come. */
 export interface Growth {
   /** its number: another number is another growth. */
@@ -698,6 +770,54 @@ export interface Growth {
   reason: string;
   /** names of its plants. */
   plants: string[];
+}
+
+/** what the document is compared with. */
+export interface MeasuredFiles {
+  /** in the order in which they came. */
+  files: MeasuredFile[];
+}
+
+/** what a file holds of measured plants. */
+export interface MeasuredFile {
+  /** to forget it. */
+  number: number;
+  /** of the file. */
+  name: string;
+  /** what is compared. */
+  values: MeasuredNumber[];
+  /** what is not used, what was guessed. */
+  notes: string[];
+  /** x, y, z one after the other, m, y upwards, the plant's foot at 0; some of many. */
+  points: number[];
+  /** axes, each as x, y, z one after the other. */
+  lines: number[][];
+  /** false: only ratios of lengths count. */
+  has_scale: boolean;
+  /** a growth that was followed. */
+  course: MeasuredMoment[];
+  /** what `at` of the course is. */
+  by: "step" | "time";
+}
+
+/** a number that was measured. */
+export interface MeasuredNumber {
+  /** what was measured. */
+  name: string;
+  /** in its unit. */
+  value: number;
+  /** the difference that counts as 1. */
+  scale: number;
+}
+
+/** a value of a growth that was followed. */
+export interface MeasuredMoment {
+  /** of the statistics. */
+  column: string;
+  /** a step or a time. */
+  at: number;
+  /** in the unit of the column. */
+  value: number;
 }
 
 /** a note that stays until it is dismissed, or another of its number comes. */
@@ -828,6 +948,10 @@ export interface Requests {
   "export": { send: ExportRequest; get: object };
   /** sends a field after a step. */
   "field": { send: NamedRequest; get: object };
+  /** seeks the settings that grow what was measured: `fitting` follows, then `fitted`. */
+  "fit": { send: FitRequest; get: object };
+  /** takes a file away from what the document is compared with. */
+  "forget-measured": { send: ForgetRequest; get: object };
   /** sends the packet of a step, once it has been drawn. */
   "frame": { send: StepRequest; get: NewestStep };
   /** edits a graph of components; its text follows. */
@@ -844,6 +968,8 @@ export interface Requests {
   "limbs": { send: LimbsRequest; get: object };
   /** looks at a step: its packet follows, now unless the page holds it, and whenever it changes. */
   "look": { send: LookRequest; get: NewestStep };
+  /** reads what was measured: `measured` follows, or a note why it cannot be used. */
+  "measure": { send: MeasureRequest; get: object };
   /** writes a side file beside the document, which grows anew. */
   "new-file": { send: NewFileRequest; get: NewFile };
   /** starts another document; the old one stays in the history. */
@@ -866,6 +992,8 @@ export interface Requests {
   "share": { send: object; get: SharedModel };
   /** ends the growth after the step at hand, which is dropped if it is not done within 0.4 s. */
   "stop": { send: object; get: object };
+  /** ends a fit: `fitted` follows. */
+  "stop-fit": { send: object; get: object };
   /** takes back one lasting change. */
   "undo": { send: object; get: NewVersion };
   /** changes a setting of a view file; its text follows. */
@@ -878,7 +1006,10 @@ export type Said =
   | ({ say: "document" } & StudioDocument)
   | ({ say: "exported" } & Exported)
   | ({ say: "fields" } & Fields)
+  | ({ say: "fitted" } & FitEnd)
+  | ({ say: "fitting" } & FitState)
   | ({ say: "growth" } & Growth)
+  | ({ say: "measured" } & MeasuredFiles)
   | ({ say: "message" } & Note)
   | ({ say: "problems" } & Problems)
   | ({ say: "progress" } & Progress)

@@ -6,9 +6,12 @@ import { sameTexts, withRows } from "./tables.js";
 import type {
   AuthorView,
   FieldName,
+  FitEnd,
+  FitState,
   Growth,
   HandedFile,
   Help,
+  MeasuredFile,
   Note,
   Problem,
   Progress,
@@ -52,6 +55,9 @@ interface Events {
   view: AuthorView | null;
   help: Help;
   exported: HandedFile[];
+  measured: MeasuredFile[];
+  fitting: FitState;
+  fitted: FitEnd;
   theme: "light" | "dark";
   /** Whether a slider of a setting is being moved. */
   sliding: boolean;
@@ -73,6 +79,9 @@ export class Studio {
   columns: string[] = [];
   fields: FieldName[] = [];
   help: Help | null = null;
+  /** Whether the program can fit what is open to what was measured. */
+  fits = false;
+  measured: MeasuredFile[] = [];
   /** The shapes of the present growth, as they came. */
   shapeMessages: ArrayBuffer[] = [];
   /** What it wears. */
@@ -91,7 +100,7 @@ export class Studio {
   constructor(readonly token: string) {
     this.theme = remembered("theme", matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
     this.connection = new Connection(token, {
-      greeted: ({ version, opened }) => Object.assign(this, { version, opened }),
+      greeted: ({ version, opened, fits }) => Object.assign(this, { version, opened, fits }),
       state: (state) => this.connected(state),
       said: (message) => this.hear(message),
       binary: (message) => this.take(message),
@@ -189,6 +198,13 @@ export class Studio {
         return this.emit("view", message.view);
       case "exported":
         return this.emit("exported", message.files);
+      case "measured":
+        this.measured = message.files;
+        return this.emit("measured", message.files);
+      case "fitting":
+        return this.emit("fitting", message);
+      case "fitted":
+        return this.emit("fitted", message);
       case "progress":
         return this.emit("progress", message);
       case "told":

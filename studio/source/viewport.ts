@@ -100,6 +100,7 @@ export class Viewport {
     studio.on("fields", () => this.fillFields());
     studio.on("column", (column) => this.paint(column));
     studio.on("field", (field) => this.paintField(field));
+    studio.on("measured", (files) => this.scene.setMeasured(files.map((file) => ({ ...file, relative: !file.has_scale }))));
     studio.on("view", (view) => this.followAuthor(view));
     studio.on("document", (document) => {
       if (document.path !== this.documentPath) this.scene.reframe();

@@ -96,7 +96,7 @@ FitTask task_of(const Species& species, const std::filesystem::path& folder, std
     return task;
 }
 
-const auto no_progress = [](const std::string&, std::size_t, std::size_t) {};
+const auto no_progress = [](const FitState&) {};
 
 double range_of(const Unknown& unknown) {
     return unknown.highest - unknown.lowest;

@@ -58,7 +58,7 @@ FitResult fitted(const fs::path& model, const fs::path& points) {
     for (const char* range : {"RATIO=0.5:0.95", "ANGLE=10:90"}) {
         task.unknowns.push_back(unknown_of(range, task.growth.subject()));
     }
-    return fit_least_squares(task, {}, [](const std::string&, std::size_t, std::size_t) {});
+    return fit_least_squares(task, {}, [](const FitState&) {});
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "espalier/base/stations.h"
 #include "espalier/simulation/scene.h"
+#include "espalier/studio/fitting.h"
 
 #include <atomic>
 #include <cstdint>
@@ -43,6 +44,7 @@ struct StudioOptions {
     /// Reads what is opened as `espalier run` does. Called on several threads. Throws UserError.
     std::function<Scene(const Opened&)> read;
     std::function<std::vector<LibraryEntry>()> library;
+    Fitting fitting = {};                                   ///< none: the studio cannot
     std::function<void(const std::string& address)> ready;  ///< it listens; the address holds its token
     const std::atomic<bool>* interrupt = nullptr;           ///< ends it
 };

@@ -85,8 +85,8 @@ Examples:
         if (part_.wants_list()) return print_commands();
         const InterruptibleRun interruptible(quiet_);
         LivingLine line(quiet_ || wants_json());
-        const study::FitProgress progress = [&](const std::string& doing, std::size_t done, std::size_t all) {
-            line.show(done >= all, [&] { return fmt::format("{} {}/{}", doing, grouped(done), grouped(all)); });
+        const study::FitProgress progress = [&](const study::FitState& state) {
+            line.show(state.done >= state.all, [&] { return told(task, state); });
         };
         std::optional<study::FitResult> result;
         try {
@@ -132,6 +132,14 @@ private:
             ->check(CLI::Range(1e-6, 1.0))
             ->capture_default_str()
             ->group(abc);
+    }
+
+    static std::string told(const study::FitTask& task, const study::FitState& state) {
+        std::string text = fmt::format("{} {}/{}", state.doing, grouped(state.done), grouped(state.all));
+        if (state.best.empty()) return text;
+        text += fmt::format("   residual {:.3g}", state.residual);
+        for (const auto& [name, value] : task.named(state.best)) text += fmt::format("  {} {:.4g}", name, value);
+        return text;
     }
 
     bool wants_posterior() const { return method_ == "abc"; }

@@ -6,6 +6,7 @@
 #include "app/child.h"
 #include "app/command.h"
 #include "app/look/studio_documents.h"
+#include "app/look/studio_fitting.h"
 #include "app/model_library.h"
 #include "app/options.h"
 #include "app/program_data.h"
@@ -107,6 +108,7 @@ Examples:
             return scene;
         };
         options.library = [library = StudioLibrary(options.folder)] { return library.entries(); };
+        options.fitting = studio_fitting();
         options.interrupt = &ended;
         options.ready = [this, &link](const std::string& own) {
             const std::string address = link.empty() ? own : own + "&model=" + link;

@@ -83,6 +83,7 @@ void Session::greet(Viewer& viewer) {
     parts_.document.send_to(viewer);
     parts_.pages.send_notes(viewer);
     parts_.growths.send_to(viewer);
+    parts_.fits.send_to(viewer);
     Pages::send(viewer, told_message({parts_.growths.number()}));
 }
 

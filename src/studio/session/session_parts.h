@@ -3,6 +3,7 @@
 
 #include "studio/growth/workers.h"
 #include "studio/session/document_disk.h"
+#include "studio/session/fits.h"
 #include "studio/session/growths.h"
 #include "studio/session/handed_files.h"
 #include "studio/session/jobs.h"
@@ -17,7 +18,8 @@ struct SessionParts {
           document(options, pages),
           disk(options, pages, document),
           growths(options, pages, document, disk, files, workers, post),
-          jobs(pages, files, workers, post) {}
+          jobs(pages, files, workers, post),
+          fits(options, pages, document, workers, post) {}
 
     const StudioOptions& options;
     HandedFiles files;
@@ -27,6 +29,7 @@ struct SessionParts {
     Workers workers;
     Growths growths;
     Jobs jobs;
+    Fits fits;
 };
 
 }  // namespace espalier::studio

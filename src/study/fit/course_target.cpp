@@ -16,12 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A value of a column at a time; between two steps what lies between.
-struct Observation {
-    std::string column;
-    double at = 0, value = 0;
-};
-
 class Course final : public Target {
 public:
     Course(const fs::path& file, bool by_step, const std::vector<Observation>& observations)
@@ -45,6 +39,8 @@ public:
         return values;
     }
 
+    MeasuredCourse course() const override { return {by_step_, observations_}; }
+
 private:
     /// 5 % of the greatest value of the column.
     static double scale_of(const std::string& column, const std::vector<Observation>& all) {
@@ -55,6 +51,7 @@ private:
         return greatest > 0 ? 0.05 * greatest : 1;
     }
 
+    /// Between two steps what lies between.
     double value_of(const Grown& world, const Observation& observation) const {
         const auto column = std::find(world.columns.begin(), world.columns.end(), observation.column);
         if (column == world.columns.end()) {

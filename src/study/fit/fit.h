@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,7 +45,15 @@ struct FitResult {
     std::vector<double> values() const;
 };
 
-using FitProgress = std::function<void(const std::string& doing, std::size_t done, std::size_t all)>;
+/// How far a fit has come.
+struct FitState {
+    std::string doing;
+    std::size_t done = 0, all = 0;
+    std::span<const double> best = {};  ///< of least squares, the best values so far; a posterior has none
+    double residual = 0;                ///< of these
+};
+/// Called on the thread that fits.
+using FitProgress = std::function<void(const FitState& state)>;
 
 struct LeastSquaresOptions {
     std::size_t worlds = 0;  ///< in which the model grows for each comparison; 0: as many as were measured, but 8 if

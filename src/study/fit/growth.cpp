@@ -81,6 +81,7 @@ bool Growth::is_define(const std::string& key) const {
 }
 
 Scene Growth::scene(std::span<const std::pair<std::string, double>> values) const {
+    if (subject_.read) return subject_.read(values);
     auto texts = subject_.values;
     for (const auto& [name, value] : values) texts.emplace_back(name, fmt::format("{:.17g}", value));
     if (subject_.is_scene()) return read_scene(subject_.file, {texts, subject_.steps, subject_.seed});

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -42,6 +43,8 @@ struct Subject {
     std::optional<int> steps = {};
     std::optional<std::uint64_t> seed = {};  ///< of the first world; default: the scene's, or 0
     std::string plant = {};                  ///< the one that is measured; "": all
+    /// Makes the scene instead of reading `file`: values are replaced where the caller keeps them. Throws UserError.
+    std::function<Scene(std::span<const std::pair<std::string, double>> values)> read = {};
 
     bool is_scene() const { return file.extension() == ".toml"; }
 };

@@ -29,13 +29,13 @@ public:
 
     std::vector<double> residuals(const std::vector<double>& values) {
         end_if_asked();
-        progress_("comparing", std::min(++comparisons_, expected_), expected_);
         std::vector<double> residuals;
         const std::vector<double> grown = task_.simulated(values, 0, worlds_);
         for (std::size_t i = 0; i < measured_.size(); ++i) {
             const double residual = (grown[i] - measured_[i].value) / measured_[i].scale;
             residuals.push_back(std::isfinite(residual) ? residual : failed);
         }
+        note(values, residuals);
         return residuals;
     }
     double sum_of_squares(const std::vector<double>& values) {
@@ -46,8 +46,18 @@ public:
     std::size_t worlds_grown() const { return comparisons_ * worlds_; }
 
 private:
+    void note(const std::vector<double>& values, const std::vector<double>& residuals) {
+        double sum = 0;
+        for (const double residual : residuals) sum += residual * residual;
+        const double mean = std::sqrt(sum / static_cast<double>(residuals.size()));
+        if (best_.empty() || mean < least_) least_ = mean, best_ = values;
+        progress_({"comparing", std::min(++comparisons_, expected_), expected_, best_, least_});
+    }
+
     const FitTask& task_;
     std::size_t worlds_, expected_, comparisons_ = 0;
+    std::vector<double> best_;  ///< so far
+    double least_ = 0;          ///< residual of these
     std::vector<Statistic> measured_;
     const FitProgress& progress_;
 };

@@ -53,6 +53,18 @@ public:
         return values;
     }
 
+    /// Upright in the plane of the picture, the base of the main axis at 0.
+    MeasuredPlaces places() const override {
+        MeasuredPlaces places;
+        const glm::dvec2 foot = plant_.axes.front().nodes.front();
+        for (const MarkedAxis& axis : plant_.axes) {
+            auto& line = places.lines.emplace_back();
+            for (const glm::dvec2& node : axis.nodes) line.emplace_back(node - foot, 0);
+        }
+        places.has_scale = plant_.has_scale;
+        return places;
+    }
+
     std::string overlay(const Grown& world) const override { return analysis::overlay_of(plant_, seen(world)); }
 
 private:

@@ -187,6 +187,7 @@ public:
         return sums;
     }
 
+    MeasuredPlaces places() const override { return {cloud_->points(), {}}; }
     /// What was measured, and beside it the plant, from the front.
     std::string overlay(const Grown& world) const override {
         const SampledPlants plant = sampled({&world, 1});

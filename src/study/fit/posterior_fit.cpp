@@ -61,7 +61,7 @@ std::vector<Prediction> predictions_of(const FitTask& task, const Posterior& pos
         for (std::size_t k = 0; k < found.size(); ++k) {
             if (std::isfinite(found[k])) grown[k].push_back(found[k]);
         }
-        progress("predicting", i + 1, predicted);
+        progress({"predicting", i + 1, predicted});
     }
     std::vector<Prediction> predictions;
     for (std::size_t k = 0; k < measured.size(); ++k) {
@@ -111,7 +111,7 @@ std::optional<FitResult> fit_posterior(const FitTask& task, const AbcFitOptions&
         const Proposal* const from = proposal ? &*proposal : nullptr;
         const auto tell = [&](std::size_t done, std::size_t all) {
             const std::string number = options.generations > 1 ? fmt::format("generation {}, ", generation + 1) : "";
-            progress(number + "simulating", done, all);
+            progress({number + "simulating", done, all});
         };
         if (!simulations.make(generation, from, options.part, tell)) return std::nullopt;
         if (simulations.made(generation, from) < options.simulations) return std::nullopt;  // others make the rest

@@ -87,8 +87,10 @@ std::vector<double> FitTask::simulated(std::span<const double> values, std::uint
     std::vector<Grown> grown(worlds);
     std::atomic<bool> all_there{true};
     const StopRequest* const stop = StopRequest::current();
+    ReadLog* const reads = ReadLog::current();
     tbb::parallel_for(std::size_t{0}, worlds, [&](std::size_t i) {
         const StopRequest::Scope scope(stop);
+        const ReadLog::Scope log(reads);
         try {
             auto world = growth.grow(scene, first + i, needs());
             world ? void(grown[i] = std::move(*world)) : void(all_there = false);

@@ -5,6 +5,8 @@
 
 #include "study/fit/growth.h"
 
+#include <glm/vec3.hpp>
+
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -22,6 +24,23 @@ struct Statistic {
     double scale = 1;
 };
 
+/// Where what was measured lies: metres, y upwards, the plant's foot at 0.
+struct MeasuredPlaces {
+    std::vector<glm::dvec3> points;
+    std::vector<std::vector<glm::dvec3>> lines;  ///< axes, from their bases on
+    bool has_scale = true;                       ///< false: only ratios of lengths count
+};
+
+/// A value of a column of statistics.csv at a step or a time.
+struct Observation {
+    std::string column;
+    double at = 0, value = 0;
+};
+struct MeasuredCourse {
+    bool is_by_step = true;  ///< else by time
+    std::vector<Observation> observations;
+};
+
 class Target {
 public:
     virtual ~Target() = default;
@@ -33,6 +52,10 @@ public:
     virtual Needs needs() const { return {}; }
     /// The same statistics of grown worlds; NaN for what they lack. Called from several threads.
     virtual std::vector<double> of(std::span<const Grown> worlds) const = 0;
+    /// What can be shown beside a plant; empty: numbers alone were measured.
+    virtual MeasuredPlaces places() const { return {}; }
+    /// What can be shown beside charts; empty: it was not followed.
+    virtual MeasuredCourse course() const { return {}; }
     /// An SVG of what was measured and what has grown, on each other; "": there is none.
     virtual std::string overlay(const Grown&) const { return ""; }
     /// What the file holds and is not used, what was guessed.

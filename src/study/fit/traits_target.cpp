@@ -33,7 +33,11 @@ public:
         }
     }
 
+    /// Of measured plants: where the first of them is.
+    void set_places(MeasuredPlaces places) { places_ = std::move(places); }
+
     const std::vector<Statistic>& statistics() const override { return statistics_.measured(); }
+    MeasuredPlaces places() const override { return places_; }
     std::size_t worlds() const override { return worlds_; }
     Needs needs() const override {
         return {std::any_of(figures_.begin(), figures_.end(), [](std::size_t figure) { return figure != none; }),
@@ -77,7 +81,21 @@ private:
     std::vector<std::size_t> figures_;  ///< the number of each among those of forms
     std::size_t worlds_;
     RowStatistics statistics_;
+    MeasuredPlaces places_;
 };
+
+/// The axes of a plant.
+MeasuredPlaces places_of(const PlantGeometry& plant) {
+    MeasuredPlaces places;
+    const glm::dvec3* before = nullptr;
+    for (const Internode& internode : plant.internodes) {
+        const glm::dvec3& foot = plant.internodes.front().base;
+        if (!before || *before != internode.base) places.lines.push_back({internode.base - foot});
+        places.lines.back().push_back(internode.tip - foot);
+        before = &internode.tip;
+    }
+    return places;
+}
 
 bool is_name_of_plants(const std::string& column) {
     return column == "plant" || column == "name" || column == "id" || column == "species";
@@ -120,10 +138,12 @@ std::shared_ptr<Target> read_measured(const fs::path& file) {
     Scene scene;
     Plant& plant = scene.plants.emplace_back();
     std::vector<std::vector<double>> all;
+    MeasuredPlaces places;
     for (std::size_t i = 0; i < plants.plants.size(); ++i) {
         plant.model = compile(measured_model(plants, i));
         const auto grown = Growth(Subject{file}).grow(scene, 0, {true, false});
         if (!grown) throw UserError(fmt::format("{}: plant {} has more than a million modules", file.string(), i));
+        if (i == 0) places = places_of(grown->first->geometry);
         for (std::vector<double>& form : forms_of(*grown)) all.push_back(std::move(form));
     }
     std::vector<std::string> names, absent;
@@ -138,6 +158,7 @@ std::shared_ptr<Target> read_measured(const fs::path& file) {
         for (std::size_t row = 0; row < all.size(); ++row) rows[row].push_back(all[row][figure]);
     }
     auto traits = std::make_shared<Traits>(std::move(names), rows);
+    traits->set_places(std::move(places));
     for (const Diagnostic& warning : plants.warnings) traits->notes.push_back(warning.message);
     if (!absent.empty())
         traits->notes.push_back(fmt::format("has no {}, which are not compared", fmt::join(absent, ", ")));

@@ -7,6 +7,7 @@ export * from "./packets.js";
 export * from "./vectors.js";
 export type { PictureSource } from "./pictures.js";
 export type { AuthorLook, SkyLook } from "./light.js";
+export type { MeasuredShape } from "./measured.js";
 export { PlantScene } from "./scene3d.js";
 export { steer } from "./steer.js";
 export { compress, decompress, fromBase64, fromLetters, toBase64, unpacked, urlSafe } from "./compression.js";

@@ -17,6 +17,7 @@ import { Ground } from "./ground.js";
 import { Internodes } from "./internodes.js";
 import { Labels } from "./labels.js";
 import { SceneLight, type AuthorLook, type SkyLook } from "./light.js";
+import { MeasuredView, type MeasuredShape } from "./measured.js";
 import { boundsOf, type Column, type Field, type Limbs, type Packet, type Shape } from "./packets.js";
 import { Pictures, type PictureSource } from "./pictures.js";
 import { markTable, Pass, shadowDepth, sharedUniforms, valueTable } from "./shading.js";
@@ -59,6 +60,7 @@ export class PlantScene {
   private readonly labels: Labels;
   private readonly shapes: Shapes;
   private readonly fieldView: FieldView;
+  private readonly measured: MeasuredView;
   private readonly shadowCamera = new OrthographicCamera(-1, 1, 1, -1, 0, 1);
   private readonly shadowTarget = new WebGLRenderTarget(shadowSize, shadowSize, { depthTexture: shadowDepth(shadowSize) });
   private readonly pickTarget = new WebGLRenderTarget(2 * pickReach + 1, 2 * pickReach + 1);
@@ -89,6 +91,7 @@ export class PlantScene {
     this.labels = new Labels(this.uniforms);
     this.shapes = new Shapes(this.uniforms, this.pictures, this.scene);
     this.fieldView = new FieldView(this.uniforms, this.scene);
+    this.measured = new MeasuredView(this.scene);
     this.scene.matrixWorldAutoUpdate = false;
     this.scene.add(
       this.backdrop.mesh,
@@ -255,6 +258,12 @@ export class PlantScene {
 
   lookAtField(look: FieldLook): void {
     this.fieldView.look(look);
+    this.request();
+  }
+
+  /** What was measured, which stands beside the plant from now on. */
+  setMeasured(shapes: readonly MeasuredShape[]): void {
+    this.measured.set(shapes);
     this.request();
   }
 
@@ -443,6 +452,7 @@ export class PlantScene {
     this.internodes.choose(pass === Pass.shadow ? null : this.orbit.camera.position, this.uniforms.pixel.value);
     if (this.limbs.mesh.visible) this.internodes.thick.visible = this.internodes.thin.visible = false;
     this.labels.mesh.visible = picture && this.labelsShown && !this.labels.empty;
+    this.measured.place(picture, this.bounds);
     this.backdrop.mesh.visible = picture;
     this.ground.mesh.visible = picture && this.groundShown && !this.isFlat();
     this.ground.veil.visible = this.ground.mesh.visible && this.reachesBelow();

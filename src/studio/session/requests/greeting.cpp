@@ -29,11 +29,13 @@ struct HelloRequest {
 struct Greeting {
     static constexpr TypeName type{"Greeting", "who answers"};
     std::string version, opened;
+    bool fits = false;
 
     template <class Self, class Fields>
     static void declare(Self& self, const Fields& field) {
         field("version", self.version, "of the program");
         field("opened", self.opened, "path of the document; empty: nothing is open");
+        field("fits", self.fits, "it can fit what is open to what was measured");
     }
 };
 
@@ -106,7 +108,7 @@ std::vector<HelpEntry> names(const std::vector<std::string>& all) {
 }
 
 Greeting hello(SessionParts& session, Viewer&, const HelloRequest&) {
-    return {ESPALIER_VERSION, session.document.path().string()};
+    return {ESPALIER_VERSION, session.document.path().string(), session.fits.can_fit()};
 }
 
 Library library(SessionParts& session, Viewer&, const Nothing&) {
