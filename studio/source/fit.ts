@@ -4,6 +4,7 @@ import type { Changes } from "./changes.js";
 import { decimalField, h, iconButton, numberIn, short, whole } from "./elements.js";
 import type { FitEnd, FitState, MeasuredFile, Setting, SoughtSetting } from "./protocol.js";
 import { plotOverSteps } from "./plot.js";
+import { partsOf } from "./settings.js";
 import { errorText, type Studio } from "./state.js";
 import { toBase64 } from "./view/index.js";
 
@@ -37,6 +38,7 @@ export class FitPanel {
   private readonly files = h("ul", "fit-files");
   private readonly place = h("input", "wide", { type: "text", id: "fit-place", placeholder: "plants.csv" });
   private readonly rowsPlace = h("div", "fit-rows", { role: "group", "aria-label": "Settings that are sought" });
+  private readonly search = h("input", "number", { type: "number", min: 1, step: 1, id: "fit-search", placeholder: "usual" });
   private readonly begin = h("button", "button primary", { type: "button", onclick: () => void this.start() }, "Fit");
   private readonly stop = h("button", "button", { type: "button", onclick: () => void this.studio.ask("stop-fit", {}) }, "Stop");
   private readonly bar = h("progress", "wide", { max: 1, value: 0, hidden: true, "aria-label": "Comparisons made" });
@@ -85,7 +87,7 @@ export class FitPanel {
       chooser,
       h("h3", "", {}, "What is sought"),
       this.rowsPlace,
-      h("div", "form-end", {}, this.stop, this.begin),
+      h("div", "form-end", {}, h("label", "check", { for: "fit-search", title: "Comparisons over the whole ranges; usually 50 for each setting" }, "Search", this.search), this.stop, this.begin),
       this.bar,
       this.told,
       this.chart,
@@ -158,7 +160,7 @@ export class FitPanel {
     await this.changes.settle();
     try {
       this.own = true;
-      await this.studio.connection.request("fit", { settings });
+      await this.studio.connection.request("fit", { settings, ...(this.search.value ? { search: Number(this.search.value) } : {}) });
       this.run(true);
       this.told.textContent = "The first plants grow …";
     } catch (error) {
@@ -233,7 +235,7 @@ function rowOf(setting: Setting): Row {
   const box = h("input", "", { type: "checkbox", id, checked: isSoughtAtFirst(setting) });
   const low = decimalField({ "aria-label": `${setting.label}, lowest`, value: bound(setting.lowest, setting.value, 0.5) });
   const high = decimalField({ "aria-label": `${setting.label}, highest`, value: bound(setting.highest, setting.value, 1.5) });
-  const element = h("div", "fit-row", {}, h("label", "check", { for: id, title: setting.name }, box, setting.label), low, "to", high);
+  const element = h("div", "fit-row", {}, h("label", "check", { for: id, title: `${setting.name}: ${setting.label}` }, box, partsOf(setting)[0]), low, "to", high);
   return { element, box, low, high };
 }
 

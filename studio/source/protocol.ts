@@ -62,6 +62,8 @@ export interface ExportRequest {
 export interface FitRequest {
   /** one at least. */
   settings: SoughtSetting[];
+  /** comparisons over the whole ranges; without it 50 for each setting; 1 to 1000000. */
+  search?: number;
 }
 
 /** a setting that is sought. */

@@ -18,7 +18,7 @@ const shoot = `#define ANGLE 60   /* angle of branches; 10..80; degrees */
 lsystem: 1
 derivation length: 6
 axiom: A(1)
-A(s) --> !(0.02 * s) F(s) [ &(ANGLE) A(s * RATIO) ] /(137.5) A(s * 0.9)
+A(s) --> !(0.06 * s) F(s) [ &(ANGLE) A(s * RATIO) ] /(137.5) A(s * 0.9)
 endlsystem
 `;
 
@@ -28,7 +28,7 @@ const settingOf = (name) => page.locator(`[id="setting-${name}"]`).inputValue().
 before(async () => {
   writeFileSync(join(place.folder, "shoot.l"), shoot);
   espalier("run", "shoot.l", "--define", "ANGLE=35", "--define", "RATIO=0.8", "--output", "truth");
-  espalier("scan", "truth", "--at", "8,2,8", "--at=-8,2,-8", "--angle", "0.3", "--no-ground", "--output", "truth.ply");
+  espalier("scan", "truth", "--at", "8,2,8", "--at=-8,2,-8", "--angle", "0.15", "--no-ground", "--output", "truth.ply");
   const rows = [0, 1, 2, 3, 4, 5, 6].map((step) => `${step},${step < 2 ? "" : (1 - 0.9 ** step) / 0.1}\n`);
   writeFileSync(join(place.folder, "course.csv"), ["step,height\n", ...rows].join(""));
   program = await startProgram(programPath, place, ["shoot.l"]);

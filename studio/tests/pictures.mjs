@@ -7,7 +7,8 @@ import { startProgram, workFolder } from "./program.mjs";
 
 const pictures = join(dirname(fileURLToPath(import.meta.url)), "../../docs/pictures");
 const place = workFolder();
-const program = await startProgram(resolve(process.argv[2] ?? "build/release/espalier"), place);
+const programPath = resolve(process.argv[2] ?? "build/release/espalier");
+const program = await startProgram(programPath, place);
 const browser = await openBrowser();
 const page = await openPage(browser, program.address, { viewport: { width: 1180, height: 664 } });
 
@@ -86,5 +87,26 @@ await page.keyboard.press("Enter");
 await page.evaluate(() => document.activeElement.blur());
 await page.waitForFunction(() => document.querySelector(".viewport canvas").dataset.limbs === "tubes");
 await save("studio-view.png");
+// The forgotten tree of docs/fitting.md.
+const espalier = (...words) => execFileSync(programPath, words, { cwd: place.base, stdio: "pipe" });
+const truth = { R1: 0.86, R2: 0.74, A1: 17, A2: -48, DIVERGENCE: 120 };
+const defines = Object.entries(truth).flatMap(([name, value]) => ["--define", `${name}=${value}`]);
+espalier("run", join(pictures, "../../models/trees/honda.l"), ...defines, "--output", "forgotten");
+const places = ["8,2,8", "-8,2,-8", "8,2,-8"].map((at) => `--at=${at}`);
+espalier("scan", "forgotten", ...places, "--angle", "0.15", "--no-ground", "--output", "forgotten.ply");
+await open("honda");
+await page.getByRole("tab", { name: "Fit" }).click();
+await page.setInputFiles("#fit-file", join(place.base, "forgotten.ply"));
+for (const [name, low, high] of [["A1", 0, 40], ["A2", -80, -20]]) {
+  await page.locator(`.fit-row:has([id="fit-${name}"]) .number`).first().fill(String(low));
+  await page.locator(`.fit-row:has([id="fit-${name}"]) .number`).last().fill(String(high));
+}
+for (const box of await page.locator(".fit-row input[type=checkbox]").all()) {
+  if (!((await box.getAttribute("id")).slice(4) in truth)) await box.uncheck();
+}
+await page.getByRole("button", { name: "Fit", exact: true }).click();
+await page.waitForSelector(".fit-found table", { timeout: 300_000 });
+await page.locator(".fit-rows").evaluate((rows) => rows.scrollIntoView());
+await save("studio-fit.png");
 await browser.close();
 await program.kill();

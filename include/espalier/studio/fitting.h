@@ -70,6 +70,7 @@ struct FitOutcome {
 struct FitOrder {
     std::vector<std::filesystem::path> measured;
     std::vector<SoughtNumber> sought;
+    std::size_t search = 0;  ///< comparisons of the search over the whole ranges; 0: what is usual
     /// The document with other values of these numbers; called on the thread that fits. Throws UserError.
     std::function<Scene(std::span<const std::pair<std::string, double>>)> scene;
     std::function<void(const BestSoFar&)> progress;

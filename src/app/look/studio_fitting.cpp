@@ -52,7 +52,7 @@ studio::FitOutcome fit(const studio::FitOrder& order) {
     study::FitTask task{study::Growth(subject), {}, {}};
     for (const studio::SoughtNumber& sought : order.sought) task.unknowns.push_back(unknown_of(sought));
     for (const std::filesystem::path& file : order.measured) task.targets.push_back(study::read_target(file));
-    const study::FitResult result = fit_least_squares(task, {}, [&](const study::FitState& state) {
+    const study::FitResult result = fit_least_squares(task, {0, order.search}, [&](const study::FitState& state) {
         order.progress({state.done, state.all, {state.best.begin(), state.best.end()}, state.residual});
     });
     studio::FitOutcome outcome;

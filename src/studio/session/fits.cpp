@@ -264,7 +264,7 @@ SoughtNumber Fits::sought(const Range& range, const DocumentTexts::Placed& place
             number.whole};
 }
 
-void Fits::begin(const std::vector<Range>& ranges) {
+void Fits::begin(const std::vector<Range>& ranges, std::size_t search) {
     require_fitting();
     if (is_fitting_) throw UserError("another fit is going on");
     if (measured_.empty()) throw UserError("nothing was measured: choose a file first");
@@ -272,6 +272,7 @@ void Fits::begin(const std::vector<Range>& ranges) {
     const DocumentState state = document_.edited();
     const auto known = document_.texts().numbers(state);
     FitOrder order;
+    order.search = search;
     std::vector<DocumentTexts::Placed> places;
     for (const Range& range : ranges) {
         const auto found = known.find(range.name);

@@ -42,7 +42,7 @@ public:
         std::string name;
         double lowest = 0, highest = 1;
     };
-    void begin(const std::vector<Range>& ranges);
+    void begin(const std::vector<Range>& ranges, std::size_t search);
     void stop();
 
     void send_to(Viewer& viewer) const;

@@ -48,7 +48,7 @@ export class MeasuredView {
       this.scales.push(size);
       const material = new RawShaderMaterial({
         glslVersion: GLSL3,
-        uniforms: { size, points: { value: 2.5 } },
+        uniforms: { size, points: { value: 3.5 } },
         vertexShader: vertex,
         fragmentShader: fragment,
       });

@@ -46,10 +46,13 @@ struct SoughtSetting {
 struct FitRequest {
     static constexpr TypeName type{"FitRequest", "the settings that are sought"};
     std::vector<SoughtSetting> settings;
+    std::optional<std::uint32_t> search;
 
     template <class Self, class Fields>
     static void declare(Self& self, const Fields& field) {
         field("settings", self.settings, "one at least");
+        field("search", self.search, "comparisons over the whole ranges; without it 50 for each setting",
+              between(1, 1e6));
     }
 };
 
@@ -73,7 +76,7 @@ Nothing fit(SessionParts& session, Viewer&, const FitRequest& request) {
     session.document.require_open();
     std::vector<Fits::Range> ranges;
     for (const SoughtSetting& one : request.settings) ranges.push_back({one.name, one.lowest, one.highest});
-    session.fits.begin(ranges);
+    session.fits.begin(ranges, request.search.value_or(0));
     return {};
 }
 
