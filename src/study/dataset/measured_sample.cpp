@@ -11,7 +11,9 @@
 #include "study/fit/form.h"
 
 #include <fmt/format.h>
+#include <tbb/task_group.h>
 
+#include <exception>
 #include <numeric>
 
 namespace espalier::study {
@@ -77,8 +79,30 @@ GrownSample grown_sample(const DatasetPlan& plan, const DatasetSample& sample) {
 MeasuredSample measure(const DatasetPlan& plan, const DatasetSample& sample, const GrownSample& grown,
                        const std::filesystem::path& folder) {
     MeasuredSample measured;
-    if (plan.scan) measured.points = write_scan(*plan.scan, mix(plan.seed, sample.number), *grown.run, folder);
-    if (plan.pictures) measured.pictures = write_pictures(*plan.pictures, *grown.run, folder);
+    std::exception_ptr not_scanned, not_drawn;
+    const auto keep_thrown = [stop = StopRequest::current()](std::exception_ptr& thrown, const auto& work) {
+        const StopRequest::Scope scope(stop);
+        try {
+            work();
+        } catch (...) {
+            thrown = std::current_exception();  // the other work is done to its end
+        }
+    };
+    tbb::task_group together;  // one thread alone draws
+    if (plan.scan) {
+        together.run([&] {
+            keep_thrown(not_scanned, [&] {
+                measured.points = write_scan(*plan.scan, mix(plan.seed, sample.number), *grown.run, folder);
+            });
+        });
+    }
+    together.run_and_wait([&] {
+        if (!plan.pictures) return;
+        keep_thrown(not_drawn, [&] { measured.pictures = write_pictures(*plan.pictures, *grown.run, folder); });
+    });
+    for (const std::exception_ptr& thrown : {not_scanned, not_drawn}) {
+        if (thrown) std::rethrow_exception(thrown);
+    }
     return measured;
 }
 
