@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_points = 20'000;            // that pages draw
+constexpr std::size_t most_points = 20'000;               // that pages draw
 constexpr std::size_t most_bytes = std::size_t(1) << 30;  // of a file
 constexpr std::chrono::milliseconds between_words{100};
 
@@ -258,7 +258,8 @@ SoughtNumber Fits::sought(const Range& range, const DocumentTexts::Placed& place
     const WrittenNumber& number = placed.second;
     if (number.is_switch) throw UserError(fmt::format("{} is a switch: a fit seeks numbers", range.name));
     if (!(range.lowest < range.highest) || range.lowest < number.lowest || range.highest > number.highest) {
-        throw UserError(fmt::format("{}: from {:.6g} to {:.6g} is no range of it", range.name, range.lowest, range.highest));
+        throw UserError(
+            fmt::format("{}: from {:.6g} to {:.6g} is no range of it", range.name, range.lowest, range.highest));
     }
     return {range.name, std::clamp(number.value, range.lowest, range.highest), range.lowest, range.highest,
             number.whole};

@@ -36,8 +36,8 @@ public:
     void add_sent(const std::string& name, const std::string& bytes);
     void remove(std::uint32_t number);
 
-    /// Seeks numbers of the document as it is now: name, lowest, highest. Throws UserError if one is none, if nothing was
-    /// measured, and while another fit goes on.
+    /// Seeks numbers of the document as it is now: name, lowest, highest. Throws UserError if one is none, if nothing
+    /// was measured, and while another fit goes on.
     struct Range {
         std::string name;
         double lowest = 0, highest = 1;
