@@ -275,6 +275,7 @@ private:
     void push_more();
     void pop_more();
     void pop_rest();
+    void add_organ(const Organ& organ);
     void draw_segment(TurtleState& turtle, const glm::dvec3& base, const glm::dvec3& tip, Box& bounds);
     void keep_frame(const Pose& pose) { drawn_frame = {pose.heading, pose.left}; }
     static void add_ball(const glm::dvec3& centre, double radius, Box& bounds) {

@@ -29,7 +29,7 @@ void Walk::place_surface(std::uint32_t id, const glm::dvec3& factors) {
         acting_.module, Organ::Shape::surface, turtle().order, std::uint16_t(turtle().colour), id, turtle().pose, size,
         look()};
     if (!settings_->shapes) {  // without the shapes of surfaces the organ marks where they would be
-        geometry_->organs.push_back(organ);
+        add_organ(organ);
         geometry_->bounds.add(turtle().pose.position);
         return;
     }
@@ -43,7 +43,7 @@ void Walk::place_surface(std::uint32_t id, const glm::dvec3& factors) {
     };
     if (size.x * size.y * size.z != 0) {
         if (surface.texture) organ.look.texture = std::uint16_t(std::max(*surface.texture, 0));
-        geometry_->organs.push_back(organ);
+        add_organ(organ);
         for (const BicubicPatch& patch : surface.patches) {
             for (const auto& row : patch.points) {
                 for (const glm::dvec3& point : row) geometry_->bounds.add(in_world(point, size));

@@ -202,9 +202,15 @@ double* Walk::elasticity(double id) {
 
 void Walk::place(Organ::Shape shape, const Pose& pose, double diameter) {
     if (!std::isfinite(diameter)) fail("the size of an organ is not a number");
-    geometry_->organs.push_back({acting_.module, shape, turtle().order, std::uint16_t(turtle().colour), 0, pose,
-                                 glm::dvec3(diameter), look(), std::uint16_t(brush().sides)});
+    add_organ({acting_.module, shape, turtle().order, std::uint16_t(turtle().colour), 0, pose, glm::dvec3(diameter),
+               look(), std::uint16_t(brush().sides)});
     add_ball(pose.position, std::abs(diameter) / 2, geometry_->bounds);
+}
+
+void Walk::add_organ(const Organ& organ) {
+    std::vector<Organ>& organs = geometry_->organs;
+    if (organs.size() == organs.capacity()) organs.reserve(room_after(organs.size()));
+    organs.push_back(organ);
 }
 
 Look Walk::look() const {
