@@ -17,7 +17,7 @@ namespace {
 class Echo : public EnvironmentProcess {
 public:
     Echo(Settings&, const EnvironmentContext&, Fields&) {}
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         for (std::size_t i = 0; i < queries.size(); ++i) answers[i][0] = queries[i].parameters[0];
     }
     std::vector<Quantity> statistics(std::uint32_t) const override { return {}; }

@@ -12,6 +12,9 @@
 
 #include <benchmark/benchmark.h>
 #include <cmath>
+#include <fstream>
+#include <malloc.h>
+#include <string>
 
 namespace espalier::bench {
 namespace {
@@ -59,6 +62,34 @@ void forest(benchmark::State& state) {
     state.SetItemsProcessed(growth.modules);
 }
 BENCHMARK(forest)->Arg(100)->Arg(1000)->Arg(10000)->UseManualTime()->Unit(benchmark::kSecond)->Iterations(1);
+
+double resident_kilobytes() {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);) {
+        if (line.starts_with("VmRSS:")) return std::stod(line.substr(6));
+    }
+    return 0;
+}
+
+/// What a tree takes more in a larger stand of which nothing is recorded.
+void memory_of_a_tree(benchmark::State& state) {
+    const auto grown = [](std::int64_t trees) {
+        malloc_trim(0);
+        const double before = resident_kilobytes();
+        WorldOptions options;
+        options.is_looked_at = false;  // as in a run
+        World world(forest(trees), options);
+        world.start();
+        while (world.steps_done() < steps) world.step();
+        return resident_kilobytes() - before;
+    };
+    constexpr std::int64_t few = 100, many = 900;
+    for (auto _ : state) {
+        const double small = grown(few), large = grown(many);
+        state.counters["value"] = (large - small) / (many - few);
+    }
+}
+BENCHMARK(memory_of_a_tree)->Iterations(1);
 
 /// The last steps of a stand and their frames.
 void forest_recorded(benchmark::State& state) {
@@ -146,6 +177,12 @@ const Row ten_thousand{"forest of 10,000 trees, a module's time against 1,000",
                        Measure::time_per_item,
                        Goal::at_most,
                        1.2};
+const Row memory{"memory of a tree of environments/forest.toml, of which nothing is recorded, kB",
+                 "memory_of_a_tree/iterations:1",
+                 "",
+                 Row::Measure::value,
+                 Row::Goal::at_most,
+                 150};
 const Row recorded{"recording a forest of 1,000 trees, against growing it",
                    "forest_recorded/1000/iterations:1/manual_time",
                    "",

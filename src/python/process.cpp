@@ -22,7 +22,7 @@ Rows rows_of(std::size_t rows, std::size_t columns) {
     return Rows(std::vector<py::ssize_t>{static_cast<py::ssize_t>(rows), static_cast<py::ssize_t>(columns)});
 }
 
-Rows vectors_of(std::span<const Query> queries, const glm::dvec3 Pose::*member) {
+Rows vectors_of(Queries queries, const glm::dvec3 Pose::*member) {
     Rows array = rows_of(queries.size(), 3);
     double* value = array.mutable_data();
     for (const Query& query : queries) {
@@ -33,7 +33,7 @@ Rows vectors_of(std::span<const Query> queries, const glm::dvec3 Pose::*member) 
 }
 
 template <class T>
-py::array_t<T> numbers_of(std::span<const Query> queries, const T Query::*member) {
+py::array_t<T> numbers_of(Queries queries, const T Query::*member) {
     py::array_t<T> array(static_cast<py::ssize_t>(queries.size()));
     std::transform(queries.begin(), queries.end(), array.mutable_data(), [&](const Query& q) { return q.*member; });
     return array;
@@ -67,7 +67,7 @@ public:
     }
 
     // All arrays are copies: Python may keep them, and the queries do not last.
-    void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView& world, Queries queries, std::span<Answer> answers, Fields&) override {
         if (queries.empty()) return;
         const py::gil_scoped_acquire held;
         const Rows values = values_of(answers);

@@ -177,7 +177,7 @@ public:
         field_.grid->tree().setValue({1, 2, 3}, 0.25f);
         static_cast<void>(context), static_cast<void>(fields);
     }
-    void answer(const WorldView&, std::span<const Query>, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries, std::span<Answer> answers, Fields&) override {
         double sum = 0;
         for (auto value = field_.grid->cbeginValueOn(); value; ++value) sum += *value;
         for (Answer answer : answers) answer[0] = sum;

@@ -20,7 +20,7 @@ class Waiting final : public EnvironmentProcess {
 public:
     Waiting(Settings& settings, const EnvironmentContext&, Fields&) : seconds_(settings.number_or("seconds", 0)) {}
 
-    void answer(const WorldView&, std::span<const Query>, std::span<Answer>, Fields&) override {
+    void answer(const WorldView&, Queries, std::span<Answer>, Fields&) override {
         std::this_thread::sleep_for(std::chrono::duration<double>(seconds_));
         while (!answers) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }

@@ -18,7 +18,7 @@ namespace {
 class Dial final : public EnvironmentProcess {
 public:
     Dial(Settings& settings, const EnvironmentContext&, Fields&) : value_(settings.number_or("value", 1)) {}
-    void answer(const WorldView&, std::span<const Query>, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries, std::span<Answer> answers, Fields&) override {
         for (Answer& answer : answers) answer[0] = value_;
     }
     std::pair<int, int> query_arity() const override { return {1, 1}; }

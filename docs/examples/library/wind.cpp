@@ -11,7 +11,7 @@ public:
     Wind(Settings& settings, const EnvironmentContext&, Fields&) : speed_(settings.number_or("speed", 1)) {}
 
     // One answer per query; the answers replace the query's parameters.
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         for (std::size_t i = 0; i < queries.size(); ++i) {
             answers[i][0] = speed_ * std::log1p(queries[i].pose.position.y);
         }

@@ -100,8 +100,9 @@ public:
 private:
     /// The questions to one process and its answers, their memory reused from step to step.
     struct Batch {
-        std::span<const Query> queries;       ///< what the process sees
-        QueryColumn copies;                   ///< the questions, unless they are read where they were asked
+        Queries queries;                      ///< what the process sees
+        Column<const Query*> places;          ///< of many plants: where they were asked
+        QueryColumn copies;                   ///< the questions, if they cannot be read where they were asked
         std::vector<std::size_t> parameters;  ///< how many each block of queries has; empty: not counted
         Column<double> values;                ///< the answers, one after the other
         Column<double> sent;                  ///< the parameters as the process sees them, if they are rounded
@@ -113,7 +114,9 @@ private:
     void gather(const WorldView& world);
     bool borrow(const WorldView& world);
     void make_room(const WorldView& world);
-    void gather(const PlantView& plant, std::span<const Query> queries, int step);
+    bool copies(const WorldView& world) const;
+    void gather(const PlantView& plant, std::span<const Query> queries, const WorldView& world);
+    const Query& copy(const Query& asked, Batch& batch) const;
     void write_defaults(std::span<ModuleString*> strings) const;
     void name_processes(const PlantView& plant);
     std::optional<std::size_t> process_for(const Query& query, const PlantView& plant, int step) const;

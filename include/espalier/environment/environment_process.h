@@ -5,6 +5,7 @@
 #include "espalier/base/registry.h"
 #include "espalier/base/settings.h"
 #include "espalier/base/stations.h"
+#include "espalier/environment/queries.h"
 #include "espalier/geometry/field.h"
 #include "espalier/turtle/interpretation.h"
 
@@ -107,10 +108,10 @@ public:
     virtual ~EnvironmentProcess() = default;
 
     /// Brings the fields on by one `dt`; step 0 is the beginning. The queries are its own, in plant and string order.
-    virtual void advance(const WorldView&, std::span<const Query>, Fields&) {}
+    virtual void advance(const WorldView&, Queries, Fields&) {}
 
     /// Answers the whole batch; answers[i] belongs to queries[i] and begins as a copy of its parameters.
-    virtual void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers,
+    virtual void answer(const WorldView& world, Queries queries, std::span<Answer> answers,
                         Fields& fields) = 0;
 
     /// What keyframes of a scene may change: they set it before `advance`. All other settings stay.

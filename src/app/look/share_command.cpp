@@ -9,6 +9,7 @@
 #include "archive/chosen_frames.h"
 #include "base/number.h"
 #include "html_file.h"
+#include "living_line.h"
 #include "simulation/run/recorded_command.h"
 #include "studio/server/live_page.h"
 #include "studio/server/shared_page.h"
@@ -112,7 +113,12 @@ private:
         const std::vector<const RecordedFrame*> all = chosen_frames(run, steps_);
         if (page_.title.empty()) page_.title = run.scene();
         std::size_t count = std::min(all.size(), most_.value_or(usual_frames));
-        const auto page_of = [&](std::size_t frames) { return studio::shared_page(run, evenly(all, frames), page_); };
+        LivingLine line(wants_json());
+        studio::SharedPage shared = page_;
+        shared.progress = [&](std::size_t done, std::size_t packed) {
+            line.show(false, [&] { return fmt::format("packing {} frames: {}", packed, done); });
+        };
+        const auto page_of = [&](std::size_t frames) { return studio::shared_page(run, evenly(all, frames), shared); };
         std::string page;
         if (most_ && size_.empty()) {
             page = page_of(count);
@@ -124,6 +130,7 @@ private:
                                             page.size() / 1'000'000 + 1));
             }
         }
+        line.end();
         const std::string what = count < all.size() ? fmt::format("of {} frames", all.size()) : "frames";
         write(page, run.folder() / "share.html", what, count);
     }

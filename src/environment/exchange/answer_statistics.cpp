@@ -15,7 +15,7 @@ void AnswerStatistics::add(std::uint32_t plant, double value) {
 
 // Queries come in the order of the plants. The totals of one stay in registers, and the queries of the last one need
 // not be read.
-void AnswerStatistics::sum_up(std::span<const Query> queries, std::span<const Answer> answers, std::size_t index) {
+void AnswerStatistics::sum_up(Queries queries, std::span<const Answer> answers, std::size_t index) {
     clear();
     for (std::size_t i = 0; i < queries.size();) {
         const std::uint32_t plant = queries[i].plant;

@@ -16,7 +16,7 @@ public:
     void clear();
     void add(std::uint32_t plant, double value);
     /// After clear: parameter `index` of every answer that has it. Queries in the order of the plants.
-    void sum_up(std::span<const Query> queries, std::span<const Answer> answers, std::size_t index = 0);
+    void sum_up(Queries queries, std::span<const Answer> answers, std::size_t index = 0);
 
     /// mean, min, max and queries of one plant; but for the queries, NaN where it asked nothing.
     std::vector<Quantity> quantities(std::uint32_t plant) const;

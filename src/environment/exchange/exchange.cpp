@@ -85,6 +85,7 @@ void Environment::exchange(const WorldView& world, std::span<ModuleString*> stri
 void Environment::gather(const WorldView& world) {
     for (Batch& batch : batches_) {
         batch.copies.clear();
+        batch.places.clear();
         batch.queries = {};
         batch.parameters.clear();
     }
@@ -93,9 +94,9 @@ void Environment::gather(const WorldView& world) {
     if (world.waiting || !borrow(world)) {
         make_room(world);
         for (const PlantView& plant : world.plants) {
-            gather(plant, world.waiting ? world.waiting->of(plant.plant) : plant.interpretation->queries, world.step);
+            gather(plant, world.waiting ? world.waiting->of(plant.plant) : plant.interpretation->queries, world);
         }
-        for (Batch& batch : batches_) batch.queries = batch.copies;
+        for (Batch& batch : batches_) batch.queries = copies(world) ? Queries(batch.copies) : Queries(batch.places);
     }
     for (std::size_t process = 0; process < processes_.size(); ++process) {
         begin_answers(batches_[process]);
@@ -103,17 +104,18 @@ void Environment::gather(const WorldView& world) {
     }
 }
 
+// Questions of plants that are not in memory last until the next plant's come, and routed ones lose a parameter.
+bool Environment::copies(const WorldView& world) const {
+    return world.waiting || routed_;
+}
+
 // Room for the questions of many plants at once: to double it would hold all of them twice for a moment.
 void Environment::make_room(const WorldView& world) {
-    if (processes_.size() != 1) return;
-    std::size_t count = world.waiting ? world.waiting->count : 0;
-    if (!world.waiting) {
-        for (const PlantView& plant : world.plants) count += plant.interpretation->queries.size();
-    }
+    if (!world.waiting || processes_.size() != 1) return;
     QueryColumn& copies = batches_.front().copies;
-    if (copies.capacity() >= count) return;
+    if (copies.capacity() >= world.waiting->count) return;
     copies = QueryColumn();
-    copies.reserve(count + count / 8);
+    copies.reserve(world.waiting->count + world.waiting->count / 8);
 }
 
 // Where one plant asks nothing but one process, the process reads the questions where they are, unless its
@@ -160,28 +162,33 @@ void Environment::name_processes(const PlantView& plant) {
     for (const std::string& name : plant.model->processes) by_name_.push_back(find(name));
 }
 
-void Environment::gather(const PlantView& plant, std::span<const Query> queries, int step) {
+void Environment::gather(const PlantView& plant, std::span<const Query> queries, const WorldView& world) {
     if (queries.empty()) return;
     name_processes(plant);
     for (const Query& asked : queries) {
-        const std::optional<std::size_t> process = process_for(asked, plant, step);
+        const std::optional<std::size_t> process = process_for(asked, plant, world.step);
         if (!process) {
             const std::span<const double> answer = turtle::default_answer(*plant.model, asked);
             if (!answer.empty()) defaults_.push_back({asked.plant, asked.parameters_at, answer});
             continue;
         }
-        Query& query = batches_[*process].copies.emplace_back(asked);
-        if (is_routed(query)) {
-            query.parameters = query.parameters.subspan(1);
-            ++query.parameters_at;
-        }
-        if (!is_sound(query, arities_[*process])) throw_unsound(query, *process, plant, step);
+        const Query& query = copies(world) ? copy(asked, batches_[*process]) : asked;
+        if (!copies(world)) batches_[*process].places.push_back(&asked);
+        if (!is_sound(query, arities_[*process])) throw_unsound(query, *process, plant, world.step);
     }
+}
+
+const Query& Environment::copy(const Query& asked, Batch& batch) const {
+    Query& query = batch.copies.emplace_back(asked);
+    if (!is_routed(query)) return query;
+    query.parameters = query.parameters.subspan(1);
+    ++query.parameters_at;
+    return query;
 }
 
 // Answers begin as copies of the parameters.
 void Environment::begin_answers(Batch& batch) {
-    const std::span<const Query> queries = batch.queries;
+    const Queries queries = batch.queries;
     if (batch.parameters.empty()) {
         batch.parameters.resize(blocks(queries.size()));
         for_blocks(queries.size(), [&](std::size_t begin, std::size_t end) {

@@ -85,7 +85,7 @@ public:
         if (companion_) companion_->dismiss(text_of_end(step_));
     }
 
-    void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView& world, Queries queries, std::span<Answer> answers, Fields&) override {
         if (queries.empty()) return;
         // One that has failed, or was left in the midst of an answer, is ended with this.
         const auto companion =

@@ -88,9 +88,9 @@ public:
     Profile(Settings& settings, const EnvironmentContext& context, Fields&)
         : table_(settings.path("file")), statistics_(context.plants) {}
 
-    void advance(const WorldView& world, std::span<const Query>, Fields&) override { line_ = table_.at(world.time); }
+    void advance(const WorldView& world, Queries, Fields&) override { line_ = table_.at(world.time); }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         const std::vector<double>& heights = table_.heights();
         for (std::size_t i = 0; i < queries.size(); ++i) {
             const Between place = find_between(heights, queries[i].pose.position.y);

@@ -349,11 +349,11 @@ public:
             {name_, "1", "activator around the unrolled stem, or veins", nullptr, true, [this] { return grid(); }});
     }
 
-    void advance(const WorldView& world, std::span<const Query>, Fields&) override {
+    void advance(const WorldView& world, Queries, Fields&) override {
         if (world.step > 0) pattern_->run();
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         for (std::size_t i = 0; i < queries.size(); ++i) pattern_->answer(queries[i], answers[i]);
     }
 

@@ -82,11 +82,11 @@ public:
         show(0, fields);
     }
 
-    void advance(const WorldView& world, std::span<const Query>, Fields& fields) override {
+    void advance(const WorldView& world, Queries, Fields& fields) override {
         if (maps_.change()) show(world.time, fields);
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         for_in_parallel(std::size_t{0}, queries.size(), [&](std::size_t i) {
             const glm::dvec3& place = queries[i].pose.position;
             for (std::size_t k = 0; k < names_.size(); ++k) answers[i][k] = values_.value(names_[k], place);

@@ -18,14 +18,14 @@ public:
         fields.share(context.name, weather_);
     }
 
-    void advance(const WorldView& world, std::span<const Query>, Fields&) override {
+    void advance(const WorldView& world, Queries, Fields&) override {
         const AirOfStep air = weather_.of_step(world.step, world.time, world.dt);
         weather_.set_now(air);
         thermal_ += air.thermal;
         rain_ += air.rain;
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         const AirOfStep& air = weather_.now();
         const double numbers[] = {air.temperature, air.humidity, air.wind, air.carbon_dioxide, air.rain,
                                   air.daylength,   air.thermal,  thermal_, air.radiation,      air.pressure};

@@ -94,7 +94,7 @@ public:
         plants_.assign(context.plants, beginning);
     }
 
-    void advance(const WorldView& world, std::span<const Query> queries, Fields&) override {
+    void advance(const WorldView& world, Queries queries, Fields&) override {
         if (!world.environment) throw RunError("carbon works in a scene's exchange only");
         if (!leaves_.empty()) find_leaves(*world.environment);
         if (weather_ && !has_own_temperature_) temperature_ = weather_->now().temperature;
@@ -111,7 +111,7 @@ public:
         }
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         for (std::size_t i = 0; i < queries.size(); ++i) {
             answers[i][0] = granted_[i];
             if (answers[i].size() > 3) answers[i][3] = level_at(queries[i], nodes_[i]);
@@ -188,7 +188,7 @@ private:
                         fmt::format("'{}' needs a leaf-exchange called '{}', before it in the scene", name_, leaves_));
     }
 
-    void live(const PlantView& plant, const Environment& environment, std::span<const Query> queries,
+    void live(const PlantView& plant, const Environment& environment, Queries queries,
               const std::vector<std::size_t>& own) {
         PlantCarbon& of = plants_[plant.plant];
         of.step = {};

@@ -137,7 +137,7 @@ public:
         read_long_waves(settings, context);
     }
 
-    void advance(const WorldView& world, std::span<const Query>, Fields&) override {
+    void advance(const WorldView& world, Queries, Fields&) override {
         if (!world.environment) throw RunError("leaf-exchange works in a scene's exchange only");
         if (!supply_) begin_step(world);
         std::vector<std::uint32_t> given;  // plants whose leaves have the potential that is given
@@ -206,7 +206,7 @@ public:
         }
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         for (std::size_t i = 0; i < queries.size(); ++i) {
             const std::array<double, 8> numbers = told_of_leaf_behind(queries[i]);
             for (std::size_t k = 0; k < std::min(answers[i].size(), form_.size()); ++k) {

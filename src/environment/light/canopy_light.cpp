@@ -66,7 +66,7 @@ public:
                         [this] { return grid_of(leaves_.densities(voxels_)); }});
     }
 
-    void advance(const WorldView& world, std::span<const Query> queries, Fields&) override {
+    void advance(const WorldView& world, Queries queries, Fields&) override {
         light_ = sky_.of_step(world.step, world.dt * days_);
         organs_.begin(world, light_);
         collect(world, queries);
@@ -76,7 +76,7 @@ public:
         shine();
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         const std::size_t skipped = asks_area_ ? 1 : 0;
         for (std::size_t i = 0; i < queries.size(); ++i) {
             const Answer answer = answers[i].subspan(std::min(skipped, answers[i].size()));
@@ -117,7 +117,7 @@ public:
     void limit_memory(std::size_t bytes) override { memory_ = bytes; }
 
 private:
-    void collect(const WorldView& world, std::span<const Query> queries) {
+    void collect(const WorldView& world, Queries queries) {
         leaves_.clear();
         if (!asks_area_) {
             for (const PlantView& plant : world.plants) {
@@ -137,7 +137,7 @@ private:
     }
 
     /// Voxels over all leaves, places that are asked for and solids.
-    void lay_voxels(std::span<const Query> queries) {
+    void lay_voxels(Queries queries) {
         Box box = leaves_.bounds();
         for (const Query& query : queries) box.add(query.pose.position);
         for (const auto& solid : solids_) {

@@ -60,7 +60,7 @@ public:
         by_area_ = file.flag("estimate intersection area", false);
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         std::vector<std::uint32_t> asking;
         std::vector<Ball> clusters;
         for (std::uint32_t i = 0; i < queries.size(); ++i) {

@@ -22,7 +22,7 @@ public:
                                 "remove old leaves", "z is up"}),
                  context) {}
 
-    void advance(const WorldView&, std::span<const Query> queries, Fields&) override {
+    void advance(const WorldView&, Queries queries, Fields&) override {
         if (forgets_) ground_.clear();
         if (as_cpfg_) return change_in_string_order(queries);
         // First all leaves that come, then all that go: the order of the queries does not matter.
@@ -34,7 +34,7 @@ public:
         }
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         for (std::size_t i = 0; i < queries.size(); ++i) {
             if (as_cpfg_ && action(queries[i]) != 0) continue;
             const std::optional<std::size_t> cell = ground_.cell(place(queries[i]));
@@ -71,7 +71,7 @@ private:
           ground_(file, context, as_cpfg_ ? GroundGrid::Rule::touched : GroundGrid::Rule::centres),
           statistics_(context.plants) {}
 
-    void change_in_string_order(std::span<const Query> queries) {
+    void change_in_string_order(Queries queries) {
         for (const Query& query : queries) {
             if (action(query) == 1) {
                 ground_.add_disc(place(query), radius(query));

@@ -135,7 +135,7 @@ public:
                         true, [this] { return grid(); }});
     }
 
-    void advance(const WorldView& world, std::span<const Query> queries, Fields&) override {
+    void advance(const WorldView& world, Queries queries, Fields&) override {
         if (extinction_ > 0) leaves_.collect(world.plants);
         nodes_.clear();
         for (const Query& query : queries) ++nodes_[room_.voxel_of(query.pose.position)];
@@ -146,7 +146,7 @@ public:
         look_at_voxels(queries);
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         std::fill(totals_.begin(), totals_.end(), Totals());
         for (std::size_t i = 0; i < queries.size(); ++i) {
             if (seeks(queries[i])) answer_seeker(queries[i], tried_[i], answers[i]);
@@ -242,7 +242,7 @@ private:
     }
 
     /// Looks once at the light of every voxel that this step is the first to ask for.
-    void look_at_voxels(std::span<const Query> queries) {
+    void look_at_voxels(Queries queries) {
         std::vector<Voxel> asked;
         for (std::size_t i = 0; i < queries.size(); ++i) {
             if (queries[i].parameters.size() >= 5) asked.push_back(room_.voxel_of(queries[i].pose.position));

@@ -85,7 +85,7 @@ public:
         provide_fields(fields);
     }
 
-    void advance(const WorldView& world, std::span<const Query>, Fields&) override {
+    void advance(const WorldView& world, Queries, Fields&) override {
         light_ = sky_ ? sky_->of_step(world.step, world.dt * days_) : Daylight();
         const double lamp_seconds = 3600 * lit_hours_ * world.dt * days_;
         if (!lamps_.empty()) light_.seconds = std::max(light_.seconds, lamp_seconds);
@@ -106,7 +106,7 @@ public:
         warn_of_accuracy(world.step);
     }
 
-    void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView& world, Queries queries, std::span<Answer> answers, Fields&) override {
         warn_of_unmet(queries, world.step);
         for (std::size_t i = 0; i < queries.size(); ++i) {
             organs_.answer(queries[i], 1, answers[i],
@@ -403,7 +403,7 @@ private:
     }
 
     /// Of organs that are asked for, where they have looked too seldom to tell that they are in the dark.
-    void warn_of_unmet(std::span<const Query> queries, int step) {
+    void warn_of_unmet(Queries queries, int step) {
         constexpr double enough = 100;
         if ((warned_of_unmet_ && warned_of_buried_) || !(paths_.light() > 0)) return;
         std::size_t count = 0, buried = 0;

@@ -47,7 +47,7 @@ public:
         cast({}, fields);
     }
 
-    void advance(const WorldView&, std::span<const Query> queries, Fields& fields) override {
+    void advance(const WorldView&, Queries queries, Fields& fields) override {
         std::vector<glm::ivec3> casters;
         for (const Query& query : queries) {
             if (!(query.parameters[0] > 0)) continue;
@@ -65,7 +65,7 @@ public:
         cast(casters, fields);
     }
 
-    void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView& world, Queries queries, std::span<Answer> answers, Fields&) override {
         for_in_parallel(tbb::blocked_range<std::size_t>(0, queries.size(), 256), [&](const auto& some) {
             const VoxelReader light(light_);
             for (std::size_t i = some.begin(); i < some.end(); ++i) {

@@ -71,7 +71,7 @@ public:
         sources_ = read_sources(file);
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         std::vector<SphereTree::Sphere> clusters;
         for (std::uint32_t i = 0; i < queries.size(); ++i) {
             const double area = std::max(queries[i].parameters[0], 0.0);

@@ -140,7 +140,7 @@ public:
         grids_.provide(field_.bricks(), shown(), fields);
     }
 
-    void advance(const WorldView&, std::span<const Query> queries, Fields&) override {
+    void advance(const WorldView&, Queries queries, Fields&) override {
         casts_.begin_step();
         casts_begin_.clear();
         for (const Query& query : queries) {
@@ -153,7 +153,7 @@ public:
         field_.show(casts_, [this] { return grids_.light_to_write(field_.bricks(), shown()); });
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         const ShadeLight light(lattice_, casts_, field_);
         const auto answer_some = [&](const tbb::blocked_range<std::size_t>& some) {
             for (std::size_t i = some.begin(); i < some.end(); ++i) {
@@ -226,7 +226,7 @@ private:
         for (int axis = 0; axis < 3; ++axis) answer[static_cast<std::size_t>(axis) + 1] = gradient[axis];
     }
 
-    void sum_up(std::span<const Query> queries, std::span<const Answer> answers) {
+    void sum_up(Queries queries, std::span<const Answer> answers) {
         statistics_.sum_up(queries, answers);
         std::fill(cast_by_.begin(), cast_by_.end(), 0);
         for (const Query& query : queries) {

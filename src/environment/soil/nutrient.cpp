@@ -59,7 +59,7 @@ public:
         solute_->advance(movement, contents);
     }
 
-    void advance(const WorldView& world, std::span<const Query>, Fields&) override {
+    void advance(const WorldView& world, Queries, Fields&) override {
         if (shared_) return;  // the soil has told of everything
         find_water();
         begin(world, contents_);
@@ -69,7 +69,7 @@ public:
         follow(movement_, contents_);
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         for (std::size_t q = 0; q < queries.size(); ++q) {
             const WaterSample sample = sample_water(layout().grid(), layout().faces(),
                                                     solute_->transport().concentration, queries[q].pose.position);

@@ -237,7 +237,7 @@ public:
         last_demand_ = mean_demand_;
     }
 
-    void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView& world, Queries queries, std::span<Answer> answers, Fields&) override {
         shown_uptake_.change();
         shown_lengths_.change();
         std::size_t q = 0;
@@ -426,7 +426,7 @@ private:
 
     /// Each query is answered the water of the internode before it: potential in it, and of roots uptake, soil at their
     /// surface, share of the uptake from uniform soil.
-    void tell(const PlantView& view, std::size_t plant, std::span<const Query> queries,
+    void tell(const PlantView& view, std::size_t plant, Queries queries,
               std::span<Answer> answers) const {
         const turtle::OrganBearers bearers(view.interpretation->geometry, *view.string);
         for (std::size_t q = 0; q < queries.size(); ++q) {

@@ -43,7 +43,7 @@ public:
         field_.provide([this]() -> const WaterBrick& { return stock_->contents(); }, fields);
     }
 
-    void advance(const WorldView& world, std::span<const Query>, Fields& fields) override {
+    void advance(const WorldView& world, Queries, Fields& fields) override {
         const bool moved = solids_.look(fields);
         if (moved || restored_) {
             restored_ = false;
@@ -59,7 +59,7 @@ public:
         }
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         queries_.answer({grid_, stock_->faces(), solids_, stock_->contents(), false, false,
                          [this](double height) {
                              const WaterLayer* const layer = parameters_.layer_at(height);

@@ -155,14 +155,14 @@ public:
                              {"domain size", "position", "grid size", "surface distance", "max surface distance",
                               "tries for Q", "tries for surface", "obstacles", "seed"})) {}
 
-    void advance(const WorldView& world, std::span<const Query> queries, Fields&) override {
+    void advance(const WorldView& world, Queries queries, Fields&) override {
         if (!keeps_objects_) obstacles_.forget_objects();
         for (const Query& query : queries) {
             if (query.parameters.empty()) add_object(query, world);
         }
     }
 
-    void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView& world, Queries queries, std::span<Answer> answers, Fields&) override {
         for_in_parallel(std::size_t{0}, queries.size(), [&](std::size_t i) {
             if (answers[i].size() >= 7) {
                 answer_climber(queries[i], world.step, answers[i]);

@@ -24,7 +24,7 @@ public:
           lambda_(settings.number_or("lambda", 0.5, Range::between(0, 1))),
           totals_(context.plants) {}
 
-    void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView& world, Queries queries, std::span<Answer> answers, Fields&) override {
         totals_.assign(std::max(totals_.size(), world.plants.size()), {});
         for_in_parallel(std::size_t{0}, world.plants.size(), [&](std::size_t i) {
             const auto of_plant = [&](const Query& query) { return query.plant < i; };
@@ -53,7 +53,7 @@ private:
         double gathered = 0, growing = 0;
     };
 
-    void answer_plant(const PlantView& plant, std::span<const Query> queries, std::span<Answer> answers,
+    void answer_plant(const PlantView& plant, Queries queries, std::span<Answer> answers,
                       Totals& totals) const {
         const ModuleString& string = *plant.string;
         std::vector<Fork> forks(string.size());
@@ -72,7 +72,7 @@ private:
     }
 
     /// From the tips to the base: the forks at opening brackets and at queries. Returns what the plant has gathered.
-    static double gather(const ModuleString& string, std::span<const Query> queries, std::vector<Fork>& forks) {
+    static double gather(const ModuleString& string, Queries queries, std::vector<Fork>& forks) {
         std::vector<double> axes;
         double sum = 0;
         std::size_t left = queries.size();
@@ -100,7 +100,7 @@ private:
     }
 
     /// From the base to the tips.
-    void hand_out(const ModuleString& string, std::span<const Query> queries, std::span<Answer> answers,
+    void hand_out(const ModuleString& string, Queries queries, std::span<Answer> answers,
                   const std::vector<Fork>& forks, double given) const {
         std::vector<double> axes;
         std::size_t next = 0;

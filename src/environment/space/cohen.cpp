@@ -55,7 +55,7 @@ public:
         sources_.insert(sources_.end(), inhibitors.begin(), inhibitors.end());
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         matter_.clear();
         for (const Query& query : queries) {
             matter_.push_back({query.pose.position, is_tip(query) ? tip_weight_ : query.parameters[0]});

@@ -40,7 +40,7 @@ public:
         for (const char* key : {"output image", "frame intervals"}) file.file(key);
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         occupants_.clear();
         for (const Query& query : queries) {
             const bool is_source = query.parameters.size() == 1;

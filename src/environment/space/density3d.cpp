@@ -39,7 +39,7 @@ public:
     }
 
     // One after the other, in string order: each finds what those before it left.
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         StopCheck<4096> check_stop;
         for (std::size_t i = 0; i < queries.size(); ++i) {
             check_stop();

@@ -82,7 +82,7 @@ public:
         in_string_order_ = settings.choice_or("scan", usual, {"vigour", "string"}) == "string";
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         centres_.clear();
         radii_.clear();
         second_.clear();

@@ -28,7 +28,7 @@ public:
         flat_ = !file.flag("3d case", false);
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         read(queries);
         std::vector<std::uint32_t> tips(queries.size());
         std::iota(tips.begin(), tips.end(), 0U);
@@ -66,7 +66,7 @@ private:
     }
 
     // Queries are large, and each is compared with several others.
-    void read(std::span<const Query> queries) {
+    void read(Queries queries) {
         points_.resize(queries.size());
         vigours_.resize(queries.size());
         groups_.resize(queries.size());

@@ -81,7 +81,7 @@ public:
         fields.provide({name_, "1", "attraction points left in a voxel", nullptr, true, [this] { return grid(); }});
     }
 
-    void advance(const WorldView& world, std::span<const Query> queries, Fields&) override {
+    void advance(const WorldView& world, Queries queries, Fields&) override {
         std::vector<ColonizingNode> nodes;
         nodes.reserve(queries.size());
         for (const Query& query : queries) {
@@ -92,7 +92,7 @@ public:
         points_.remove_within(kill_.at(world.step));
     }
 
-    void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView& world, Queries queries, std::span<Answer> answers, Fields&) override {
         tell_the_end();
         std::fill(won_.begin(), won_.end(), 0);
         const std::vector<Colonization::Won> won = points_.won();

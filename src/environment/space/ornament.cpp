@@ -17,14 +17,14 @@ public:
         : Ornament(ParameterFile(settings, context, {"grid size", "grid position", "grid range", "input image"}),
                    context) {}
 
-    void advance(const WorldView&, std::span<const Query> queries, Fields&) override {
+    void advance(const WorldView&, Queries queries, Fields&) override {
         ground_.clear();
         for (const Query& query : queries) {
             if (query.parameters.size() > 1) ground_.add_disc(place(query), query.parameters[1]);
         }
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         for (std::size_t i = 0; i < queries.size(); ++i) {
             const std::optional<std::size_t> cell = ground_.cell(place(queries[i]));
             answers[i][0] = cell ? std::min(ground_.count(*cell), 255u) : 0;

@@ -99,11 +99,11 @@ public:
         put_at(0, fields);
     }
 
-    void advance(const WorldView& world, std::span<const Query>, Fields& fields) override {
+    void advance(const WorldView& world, Queries, Fields& fields) override {
         if (motion_.moves()) put_at(world.step, fields);
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         for_in_parallel(std::size_t{0}, queries.size(),
                         [&](std::size_t i) { answer_one(queries[i].pose.position, answers[i]); });
         std::fill(inside_.begin(), inside_.end(), 0);

@@ -35,7 +35,7 @@ public:
           tolerance_(0.01 * edge_),
           statistics_(context.plants) {}
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         find_cells(queries);
         const PointGrid grid(places_, numbers_up_to(places_.size()), edge_);
         for_in_parallel(std::size_t{0}, cells_.size(), [&](std::size_t i) { count_living(grid, cells_[i]); });
@@ -69,7 +69,7 @@ private:
         return numbers;
     }
 
-    void find_cells(std::span<const Query> queries) {
+    void find_cells(Queries queries) {
         const std::vector<std::uint32_t> first = first_at_the_place(queries);
         cells_.clear();
         places_.clear();
@@ -86,7 +86,7 @@ private:
 
     // Turtles reach one place by different ways: what is nearer than the tolerance is the same place. First within
     // small boxes, so that a crowd costs no more than its members, then across their walls.
-    std::vector<std::uint32_t> first_at_the_place(std::span<const Query> queries) const {
+    std::vector<std::uint32_t> first_at_the_place(Queries queries) const {
         std::vector<glm::dvec3> points;
         for (const Query& query : queries) points.push_back(query.pose.position);
         std::vector<std::uint32_t> first = numbers_up_to(points.size()), heads;
@@ -153,7 +153,7 @@ private:
         return candidate.edges == 1 && (rule_ == "eligible" || candidate.corners == 0);
     }
 
-    void sum_up(std::span<const Query> queries, std::span<const Answer> answers) {
+    void sum_up(Queries queries, std::span<const Answer> answers) {
         statistics_.clear();
         for (std::size_t i = 0; i < queries.size(); ++i) {
             if (queries[i].parameters[0] <= 0) statistics_.add(queries[i].plant, answers[i][0]);

@@ -77,7 +77,9 @@ Json recording_of(const RecordedRun& run, const std::vector<const RecordedFrame*
     const std::optional<environment::SceneSky> sky = sky_of(run, frames.back()->step);
     SharedOrgans organs(run);
     SharedFields fields(run, frames);
-    for (const RecordedFrame* const frame : frames) {
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const RecordedFrame* const frame = frames[i];
+        if (page.progress) page.progress(i, frames.size());
         const DrawnFrame drawn(run, *frame);
         steps.push_back(frame->step);
         packets.add(drawn.packet(1, frame->step));

@@ -3,6 +3,8 @@
 
 #include "espalier/archive/recorded_run.h"
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,7 @@ namespace espalier::studio {
 struct SharedPage {
     std::string title;
     bool is_dark = false;
+    std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< frames that were packed; may be none
 };
 
 /// HTML that shows the frames, the last at first; they can be turned and played. It has the viewer of the studio in it,

@@ -15,7 +15,7 @@ namespace {
 class Where final : public EnvironmentProcess {
 public:
     Where(Settings& settings, const EnvironmentContext&, Fields&) : mark_(settings.number_or("mark", 0)) {}
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         for (std::size_t i = 0; i < queries.size(); ++i) {
             seen.assign(queries[i].parameters.begin(), queries[i].parameters.end());
             following = queries[i].following;

@@ -26,13 +26,13 @@ public:
     Echo(Settings& settings, const EnvironmentContext& context, Fields&)
         : name_(context.name), factor_(settings.number_or("factor", 1)) {}
 
-    void advance(const WorldView&, std::span<const Query> queries, Fields&) override {
+    void advance(const WorldView&, Queries queries, Fields&) override {
         ++steps_;
         log_of_calls().push_back(name_ + " advances");
         seen.clear();
         for (const Query& query : queries) seen.push_back(query.parameters[0]);
     }
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         log_of_calls().push_back(name_ + " answers");
         for (std::size_t i = 0; i < queries.size(); ++i) answers[i][0] *= factor_;
     }
@@ -55,10 +55,10 @@ private:
 class Faulty final : public EnvironmentProcess {
 public:
     Faulty(Settings& settings, const EnvironmentContext&, Fields&) : fault_(settings.text("fault")) {}
-    void advance(const WorldView&, std::span<const Query>, Fields&) override {
+    void advance(const WorldView&, Queries, Fields&) override {
         if (fault_ == "throws") throw std::out_of_range("beyond the grid");
     }
-    void answer(const WorldView&, std::span<const Query>, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries, std::span<Answer> answers, Fields&) override {
         for (const Answer& answer : answers) answer[0] = fault_ == "nan" ? std::nan("") : HUGE_VAL;
     }
     std::vector<Quantity> statistics(std::uint32_t) const override { return {}; }

@@ -14,7 +14,7 @@
 namespace espalier::environment {
 
 /// The queries of a step. The address of each is its number in the step, from 0.
-std::string text_of_queries(const WorldView& world, std::span<const Query> queries, const Communication& communication);
+std::string text_of_queries(const WorldView& world, Queries queries, const Communication& communication);
 
 /// Ends the exchange: the program is not asked again.
 std::string text_of_end(int step);
@@ -22,7 +22,7 @@ std::string text_of_end(int step);
 /// Takes the lines of a program's answer to a step.
 class AnswerReader {
 public:
-    AnswerReader(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers)
+    AnswerReader(const WorldView& world, Queries queries, std::span<Answer> answers)
         : world_(world), queries_(queries), answers_(answers), answered_(queries.size()) {}
 
     /// True for the line that ends the answers. Throws RunError for a line that is no answer to a query of the step.
@@ -32,7 +32,7 @@ private:
     void answer(std::string_view line);
 
     const WorldView& world_;
-    std::span<const Query> queries_;
+    Queries queries_;
     std::span<Answer> answers_;
     std::vector<bool> answered_;
 };

@@ -74,7 +74,7 @@ public:
           memory_(context.memory),
           paths_(program_.optics(), {}, options()) {}
 
-    void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView& world, Queries queries, std::span<Answer> answers, Fields&) override {
         collect(world, queries);
         require_memory();
         trace(world.step);
@@ -114,7 +114,7 @@ private:
         }
     }
 
-    void collect(const WorldView& world, std::span<const Query> queries) {
+    void collect(const WorldView& world, Queries queries) {
         objects_.clear();
         corners_.clear();
         owners_.clear();

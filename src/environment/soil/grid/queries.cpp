@@ -13,7 +13,7 @@
 namespace espalier::environment {
 namespace {
 
-void require_finite(std::span<const Query> queries) {
+void require_finite(Queries queries) {
     for (const Query& query : queries) {
         const std::size_t used = std::min<std::size_t>(query.parameters.size(), 4);
         for (std::size_t p = 0; p < used; ++p) {
@@ -62,7 +62,7 @@ SoilQueries::SoilQueries(const SoilQuerying& querying, const EnvironmentContext&
       uptake_(context.plants, 0),
       wish_(context.plants, 0) {}
 
-std::vector<WaterWish> SoilQueries::sense(const SensedSoil& soil, std::span<const Query> queries,
+std::vector<WaterWish> SoilQueries::sense(const SensedSoil& soil, Queries queries,
                                           std::span<Answer> answers) {
     std::fill(uptake_.begin(), uptake_.end(), 0);
     std::fill(wish_.begin(), wish_.end(), 0);
@@ -77,7 +77,7 @@ std::vector<WaterWish> SoilQueries::sense(const SensedSoil& soil, std::span<cons
     return wishes;
 }
 
-double SoilQueries::obtain(const WaterGrid& grid, std::span<const WaterWish> wishes, std::span<const Query> queries,
+double SoilQueries::obtain(const WaterGrid& grid, std::span<const WaterWish> wishes, Queries queries,
                            std::span<Answer> answers, WaterBrick& stock) {
     const ShareResult result = querying_.depletion ? share_water(grid, wishes, stock) : lend_water(grid, wishes, stock);
     for (std::size_t q = 0; q < queries.size(); ++q) {
@@ -91,7 +91,7 @@ double SoilQueries::obtain(const WaterGrid& grid, std::span<const WaterWish> wis
 }
 
 // Once. Wishes in content times voxels are a million times too large where voxels of a centimetre count as volumes.
-void SoilQueries::warn_of_wishes_beyond_voxels(std::span<const Query> queries) {
+void SoilQueries::warn_of_wishes_beyond_voxels(Queries queries) {
     const double most = 8 * querying_.amount;  // eight voxels of nothing but water
     if (!warnings_ || querying_.amount == 1) return;
     for (const Query& query : queries) {

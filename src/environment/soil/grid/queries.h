@@ -36,7 +36,7 @@ public:
     /// takes from a brick of what may be taken and returns the sum, in content times voxels. Throws RunError for a
     /// parameter that is not finite.
     template <class Soil>
-    void answer(const SensedSoil& sensed, std::span<const Query> queries, std::span<Answer> answers, Soil& soil) {
+    void answer(const SensedSoil& sensed, Queries queries, std::span<Answer> answers, Soil& soil) {
         const std::vector<WaterWish> wishes = sense(sensed, queries, answers);
         if (wishes.empty()) return;
         soil.drink([&](WaterBrick& stock) { return obtain(sensed.grid, wishes, queries, answers, stock); });
@@ -48,10 +48,10 @@ public:
     void restore(std::istream& in);
 
 private:
-    std::vector<WaterWish> sense(const SensedSoil& soil, std::span<const Query> queries, std::span<Answer> answers);
-    double obtain(const WaterGrid& grid, std::span<const WaterWish> wishes, std::span<const Query> queries,
+    std::vector<WaterWish> sense(const SensedSoil& soil, Queries queries, std::span<Answer> answers);
+    double obtain(const WaterGrid& grid, std::span<const WaterWish> wishes, Queries queries,
                   std::span<Answer> answers, WaterBrick& stock);
-    void warn_of_wishes_beyond_voxels(std::span<const Query> queries);
+    void warn_of_wishes_beyond_voxels(Queries queries);
 
     const SoilQuerying& querying_;
     std::string name_;

@@ -37,7 +37,7 @@ public:
         provide(context.name, fields);
     }
 
-    void advance(const WorldView& world, std::span<const Query>, Fields& fields) override {
+    void advance(const WorldView& world, Queries, Fields& fields) override {
         if (solids_.look(fields)) {
             throw RunError(
                 "a shape in the soil has moved: stones and pots of model = \"richards\" stay where they are");
@@ -51,7 +51,7 @@ public:
         }
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
         answer_heads(queries, answers);
         queries_.answer({grid_, layout_.faces(), solids_, soil_.contents(), layout_.joined_x(), layout_.joined_z()},
                         queries, answers, soil_);
@@ -165,7 +165,7 @@ private:
     }
 
     /// The tenth parameter of a query is answered the pressure head around it, cm; three more its gradient, cm/cm.
-    void answer_heads(std::span<const Query> queries, std::span<Answer> answers) const {
+    void answer_heads(Queries queries, std::span<Answer> answers) const {
         for (std::size_t q = 0; q < queries.size(); ++q) {
             if (answers[q].size() < 10) continue;
             const WaterSample sample = sample_water(grid_, layout_.faces(), soil_.heads(), queries[q].pose.position);
