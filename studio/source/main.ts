@@ -1,6 +1,7 @@
 /** The studio: puts the page together. */
 import { Changes } from "./changes.js";
 import { ChartsPanel } from "./charts.js";
+import { Comparison } from "./compare.js";
 import { Editor } from "./editor/editor.js";
 import { FitPanel } from "./fit.js";
 import { Gallery } from "./gallery.js";
@@ -79,7 +80,8 @@ function start(): void {
   const timeline = new Timeline(studio);
   const editor = new Editor(studio, changes, lesson !== null && lesson.texts !== "free");
   const messages = new Messages(studio);
-  const viewport = new Viewport(studio, timeline, (module) => void picked.pick(module));
+  const comparison = new Comparison(studio, () => viewport.scene);
+  const viewport: Viewport = new Viewport(studio, timeline, comparison, (module) => void picked.pick(module));
   const picked: PickPanel = new PickPanel(
     studio,
     () => viewport.scene,
@@ -91,7 +93,7 @@ function start(): void {
     },
   );
   timeline.started = () => viewport.hints.did("played");
-  const charts = new ChartsPanel(studio, timeline, lesson?.charts);
+  const charts = new ChartsPanel(studio, timeline, comparison, lesson?.charts);
   const settings = new SettingsPanel(studio, changes);
   const gallery = new Gallery(studio, () => studio.frames.look("last"));
   const graph: GraphPanel = new GraphPanel(studio, changes, editor, (offered) => tabs.offer("Graph", offered));

@@ -11,7 +11,7 @@ interface Row {
 }
 
 /** The name of a setting, and what it says beside: "crown width: of the ellipsoid" has both. */
-function partsOf({ label, name }: Setting): [string, string] {
+export function partsOf({ label, name }: Setting): [string, string] {
   const at = label.indexOf(": ");
   const own = (at < 0 ? label : label.slice(0, at)) || name;
   return [own.charAt(0).toUpperCase() + own.slice(1), at < 0 ? "" : label.slice(at + 2)];

@@ -58,6 +58,8 @@ interface Events {
   measured: MeasuredFile[];
   fitting: FitState;
   fitted: FitEnd;
+  /** A growth was pinned or let go, or is looked at in another way. */
+  compared: null;
   theme: "light" | "dark";
   /** Whether a slider of a setting is being moved. */
   sliding: boolean;

@@ -19,6 +19,7 @@ import { errorText, type Studio } from "./state.js";
 import type { Timeline } from "./timeline.js";
 import { menuButton } from "./dialog.js";
 import { CloudLook } from "./cloud.js";
+import type { Comparison } from "./compare.js";
 import { Film } from "./film.js";
 import { Hints } from "./hints.js";
 import { LimbLook } from "./limbs.js";
@@ -37,6 +38,7 @@ export class Viewport {
   private field: Field | null = null;
   private readonly legend = h("div", "legend", { hidden: true, "aria-live": "polite" });
   private readonly scale = h("div", "scale-note");
+  private readonly pin = iconButton("pin", "Pin this growth: it stands beside what you change then", () => this.comparison.toggle());
   private readonly limbs: LimbLook;
   readonly hints: Hints;
   private colouring = remembered("colouring", "");
@@ -54,6 +56,7 @@ export class Viewport {
   constructor(
     private readonly studio: Studio,
     timeline: Timeline,
+    private readonly comparison: Comparison,
     clicked: (module: number | null) => void,
   ) {
     this.scene = new PlantScene(this.canvas);
@@ -75,7 +78,7 @@ export class Viewport {
         "picture-over",
         {},
         this.toolbar(film),
-        h("div", "picture-left", {}, this.limbs.element, this.fieldTools, this.legend),
+        h("div", "picture-left", {}, this.limbs.element, comparison.element, this.fieldTools, this.legend),
       ),
       this.dial.element,
       this.scale,
@@ -100,6 +103,7 @@ export class Viewport {
     studio.on("fields", () => this.fillFields());
     studio.on("column", (column) => this.paint(column));
     studio.on("field", (field) => this.paintField(field));
+    studio.on("compared", () => this.compare());
     studio.on("measured", (files) => this.scene.setMeasured(files.map((file) => ({ ...file, relative: !file.has_scale }))));
     studio.on("view", (view) => this.followAuthor(view));
     studio.on("document", (document) => {
@@ -125,11 +129,20 @@ export class Viewport {
     this.scene.setSky(sky);
     this.dial.show(this.scene.shownSky);
     this.scene.show(packet);
+    this.comparison.show();
     this.scale.textContent = `grid ${short(this.scene.gridCell)} m`;
     this.element.dataset.step = String(packet.step);
     this.element.dataset.growth = String(packet.growth);
     this.element.dataset.triangles = String(triangleCount(packet));
     if (this.colouring && this.colouring !== "order") this.askColumn(packet);
+    if (this.fieldName) this.askField();
+  }
+
+  /** What is pinned has changed, or how it is looked at. */
+  private compare(): void {
+    this.pin.setAttribute("aria-pressed", String(this.comparison.pinned !== null));
+    this.colourBy(this.colouring);
+    this.askedField = "";
     if (this.fieldName) this.askField();
   }
 
@@ -167,6 +180,7 @@ export class Viewport {
         "div",
         "picture-buttons",
         {},
+        this.pin,
         iconButton("fit", "Show the whole plant (F)", () => this.scene.fit()),
         iconButton("home", "First view (Home)", () => this.scene.home()),
         look,
@@ -229,6 +243,7 @@ export class Viewport {
     this.askedColumn = "";
     this.legend.hidden = true;
     const { shown } = this.studio.frames;
+    this.comparison.colour(null);
     if (name === "") this.scene.colourBy(null);
     else if (!this.studio.columns.includes(name)) this.paintOrder(shown);
     else if (shown) this.askColumn(shown);
@@ -238,6 +253,7 @@ export class Viewport {
     let highest = 1;
     if (packet) for (let i = 4; i < packet.internodes.length; i += 6) highest = Math.max(highest, at(packet.internodes, i) >>> 24);
     this.scene.colourBy("order", [0, highest]);
+    this.comparison.colour("order");
     this.drawLegend("order of branching", 0, highest, "");
   }
 
@@ -254,8 +270,9 @@ export class Viewport {
   private paint(column: Column): void {
     const { shown } = this.studio.frames;
     if (column.name !== this.colouring || column.step !== shown?.step || column.growth !== shown.growth) return;
-    this.scene.colourBy(column);
-    this.drawLegend(column.name, column.lowest, column.highest, column.values.some(Number.isNaN) ? "grey: no value" : "");
+    const { data, name, note, range } = this.comparison.column(column);
+    this.scene.colourBy(data, range);
+    this.drawLegend(name, ...range, note);
   }
 
   private drawLegend(name: string, lowest: number, highest: number, note: string): void {
@@ -323,12 +340,13 @@ export class Viewport {
 
   private paintField(field: Field): void {
     if (`${field.growth} ${field.step} ${field.name}` !== this.askedField) return;
-    this.field = field;
+    const { data, name, note, range } = this.comparison.field(field);
+    this.field = data;
     this.element.dataset.field = `${field.name} ${field.step}`;
-    this.scene.showField(field, this.fieldLook);
+    this.scene.showField(data, this.fieldLook);
     this.showFieldValue();
-    const unit = this.studio.fields.find(({ name }) => name === field.name)?.unit ?? "";
-    this.drawLegend(`${field.name}${unit ? ` (${unit})` : ""}`, field.lowest, field.highest, `after step ${whole(field.step)}`);
+    const unit = this.studio.fields.find((known) => known.name === field.name)?.unit ?? "";
+    this.drawLegend(`${name}${unit ? ` (${unit})` : ""}`, ...range, note || `after step ${whole(field.step)}`);
     this.legendIsField = true;
   }
 
