@@ -17,6 +17,7 @@ import { hasModel, openLink, openNamed } from "./links.js";
 import { tellReadiness } from "./readiness.js";
 import { Studio } from "./state.js";
 import { StatusLine } from "./status.js";
+import { Sweep } from "./sweep.js";
 import { Timeline } from "./timeline.js";
 import { Viewport } from "./viewport.js";
 
@@ -94,7 +95,8 @@ function start(): void {
   );
   timeline.started = () => viewport.hints.did("played");
   const charts = new ChartsPanel(studio, timeline, comparison, lesson?.charts);
-  const settings = new SettingsPanel(studio, changes);
+  const sweep = new Sweep(studio, changes, () => viewport.scene);
+  const settings = new SettingsPanel(studio, changes, null, (setting) => sweep.open(setting));
   const gallery = new Gallery(studio, () => studio.frames.look("last"));
   const graph: GraphPanel = new GraphPanel(studio, changes, editor, (offered) => tabs.offer("Graph", offered));
   const tabs = new Tabs(

@@ -512,6 +512,20 @@ export interface SettleRequest {
   take: "disk" | "mine";
 }
 
+/** values of a setting, each of which grows a plant. */
+export interface SweepRequest {
+  /** of the setting. */
+  name: string;
+  /** as texts write them; 24 at most. */
+  values: string[];
+}
+
+/** the growths of a sweep. */
+export interface SweptGrowths {
+  /** number of the first growth; those of the other values follow. */
+  first: number;
+}
+
 /** another value for a setting of a view file. */
 export interface ViewRequest {
   /** path of its text. */
@@ -896,6 +910,14 @@ export interface Statistics {
   rows: Cell[][];
 }
 
+/** a plant of a sweep has grown. */
+export interface Swept {
+  /** its number. */
+  growth: number;
+  /** why it did not grow; empty otherwise. */
+  reason: string;
+}
+
 /** pictures that plants wear. */
 export interface Textures {
   /** number of the growth. */
@@ -994,6 +1016,10 @@ export interface Requests {
   "stop": { send: object; get: object };
   /** ends a fit: `fitted` follows. */
   "stop-fit": { send: object; get: object };
+  /** ends the sweep of this page; no more `swept` follows. */
+  "stop-sweep": { send: object; get: object };
+  /** grows the document with other values of a setting, one after the other: `swept` follows for each. */
+  "sweep": { send: SweepRequest; get: SweptGrowths };
   /** takes back one lasting change. */
   "undo": { send: object; get: NewVersion };
   /** changes a setting of a view file; its text follows. */
@@ -1015,6 +1041,7 @@ export type Said =
   | ({ say: "progress" } & Progress)
   | ({ say: "sky" } & SkyOfStep)
   | ({ say: "statistics" } & Statistics)
+  | ({ say: "swept" } & Swept)
   | ({ say: "textures" } & Textures)
   | ({ say: "told" } & AllTold)
   | ({ say: "view" } & View);

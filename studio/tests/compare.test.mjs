@@ -1,4 +1,4 @@
-// Two growths beside each other: node tests/compare.test.mjs PROGRAM
+// Two growths beside each other, and many of a sweep: node tests/compare.test.mjs PROGRAM
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
@@ -103,5 +103,52 @@ test("fields are compared voxel by voxel", async () => {
   await set("environment.light.sky.latitude", "60");
   await page.waitForFunction(() => /now − pinned/.test(document.querySelector(".legend strong")?.textContent));
   await shot(page, "compare-field");
+  assert.deepEqual(page.problems, []);
+});
+
+test("a slider is swept into a grid of plants and a chart, and the document stays as it was", async () => {
+  await open("tree.l");
+  const text = await page.locator(".cm-content").textContent();
+  await page.getByRole("button", { name: "Sweep Angle of branches …" }).click();
+  const dialog = page.getByRole("dialog", { name: "Sweep Angle of branches" });
+  await dialog.getByLabel("From").fill("10");
+  await dialog.getByLabel("to", { exact: true }).fill("70");
+  await dialog.getByLabel("plants").fill("4");
+  await dialog.getByRole("button", { name: "Grow", exact: true }).click();
+  await page.waitForFunction(() => /^All have grown/.test(document.querySelector("dialog [role=status]").textContent));
+  assert.deepEqual(await dialog.locator(".sweep-tile").allTextContents(), ["10", "30", "50", "70"]);
+  await dialog.getByLabel("Chart of").selectOption("internodes");
+  assert.match(await dialog.locator(".u-legend").textContent(), /value/);
+  await rests(page);
+  await shot(page, "sweep");
+  assert.equal(await page.locator(".cm-content").textContent(), text);
+  assert.equal(await page.locator("#setting-ANGLE").inputValue(), "32");
+  const pixels = await dialog.locator(".sweep-tile canvas").evaluateAll((all) => all.map((canvas) => canvas.toDataURL()));
+  assert.equal(new Set(pixels).size, 4);
+});
+
+test("a click on a plant of a sweep takes its value, as one change", async () => {
+  await page.locator(".sweep-tile", { hasText: "50" }).click();
+  await grown(page);
+  assert.equal(await page.locator("#setting-ANGLE").inputValue(), "50");
+  assert.equal(await page.getByRole("dialog").count(), 0);
+  await page.getByRole("button", { name: /^Undo: angle of branches = 50/ }).click();
+  await grown(page);
+  assert.equal(await page.locator("#setting-ANGLE").inputValue(), "32");
+});
+
+test("a sweep can be stopped, and its dialog closed while it goes on", async () => {
+  await set("RATIO", "0.8");
+  await page.getByLabel("Steps", { exact: true }).fill("12");
+  await page.getByLabel("Steps", { exact: true }).press("Enter");
+  await page.getByRole("button", { name: "Sweep Ratio …" }).click();
+  await page.getByRole("button", { name: "Grow", exact: true }).click();
+  await page.getByRole("button", { name: "Stop", exact: true }).click();
+  assert.equal(await page.getByRole("dialog").getByRole("status").textContent(), "Stopped.");
+  await page.getByRole("button", { name: "Grow", exact: true }).click();
+  await page.keyboard.press("Escape");
+  await page.getByLabel("Steps", { exact: true }).fill("3");
+  await page.getByLabel("Steps", { exact: true }).press("Enter");
+  await grown(page);
   assert.deepEqual(page.problems, []);
 });

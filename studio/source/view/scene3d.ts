@@ -163,6 +163,11 @@ export class PlantScene {
     this.request();
   }
 
+  /** The box of the plants; null: nothing is shown. */
+  get box(): Box | null {
+    return this.bounds;
+  }
+
   get gridCell(): number {
     return this.ground.cell;
   }
