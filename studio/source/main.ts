@@ -27,7 +27,7 @@ function useTheme(studio: Studio): void {
   studio.on("theme", apply);
 }
 
-function keysOfThePage(header: Header, timeline: Timeline, forget: () => void): void {
+function keysOfThePage(header: Header, timeline: Timeline, picked: PickPanel): void {
   document.addEventListener("keydown", (event) => {
     const target = event.target as HTMLElement;
     const command = event.ctrlKey || event.metaKey;
@@ -42,7 +42,9 @@ function keysOfThePage(header: Header, timeline: Timeline, forget: () => void): 
       ? { z: () => void header.step(event.shiftKey ? "redo" : "undo"), y: () => void header.step("redo") }
       : {
           p: () => timeline.toggle(),
-          escape: forget,
+          escape: () => void picked.pick(null),
+          n: () => void picked.go(1),
+          b: () => void picked.go(-1),
           ",": () => timeline.goTo(timeline.step - 1),
           ".": () => timeline.goTo(timeline.step + 1),
         };
@@ -92,6 +94,7 @@ function start(): void {
       viewport.hints.did("asked");
       tabs.show("Organ");
     },
+    (words) => viewport.words.say(words),
   );
   timeline.started = () => viewport.hints.did("played");
   const charts = new ChartsPanel(studio, timeline, comparison, lesson?.charts);
@@ -131,7 +134,7 @@ function start(): void {
     messages.element,
     gallery.element,
   );
-  keysOfThePage(header, timeline, () => void picked.pick(null));
+  keysOfThePage(header, timeline, picked);
   gallery.behind = [layout.element, timeline.element];
   let first = true;
   studio.on("connection", (state) => {

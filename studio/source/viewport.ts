@@ -23,13 +23,15 @@ import type { Comparison } from "./compare.js";
 import { Film } from "./film.js";
 import { Hints } from "./hints.js";
 import { LimbLook } from "./limbs.js";
+import { PictureWords } from "./picture-words.js";
 import { SunDial } from "./sun-dial.js";
 
 export class Viewport {
   readonly element: HTMLElement;
   readonly scene: PlantScene;
   private readonly canvas = h("canvas", "", {
-    "aria-label": "The plant. Arrows turn, + and - zoom, Space and Shift raise and lower, F fits.",
+    "aria-label": "The plant. Arrows turn, + and - zoom, Space and Shift raise and lower, F fits, N and B go from organ to organ.",
+    "aria-describedby": "picture-words",
   });
   private readonly colourSelect = h("select", "", { "aria-label": "Colour by" });
   private readonly fieldSelect = h("select", "", { "aria-label": "Field" });
@@ -41,6 +43,7 @@ export class Viewport {
   private readonly pin = iconButton("pin", "Pin this growth: it stands beside what you change then", () => this.comparison.toggle());
   private readonly limbs: LimbLook;
   readonly hints: Hints;
+  readonly words: PictureWords;
   private colouring = remembered("colouring", "");
   private fieldName = "";
   private askedField = "";
@@ -63,6 +66,7 @@ export class Viewport {
     this.scene.theme = themes[studio.theme];
     steer(this.scene, { clicked: (x, y) => clicked(this.scene.pick(x, y)) });
     this.hints = new Hints(studio);
+    this.words = new PictureWords(studio, this.scene);
     new CloudLook(studio, this.scene, () => this.chooseField(this.fieldName));
     this.canvas.addEventListener("pointerup", () => this.hints.did("turned"));
     this.limbs = new LimbLook(studio, this.scene);
@@ -83,6 +87,7 @@ export class Viewport {
       this.dial.element,
       this.scale,
       this.hints.element,
+      this.words.element,
     );
     this.scene.drawn = () => this.dial.turn(this.scene.orbit.state.azimuth);
     new ResizeObserver(() => this.scene.resize(this.element.clientWidth, this.element.clientHeight)).observe(this.element);

@@ -124,6 +124,30 @@ test("screen readers are told how the growth stands", async () => {
   assert.equal(await state.textContent(), "grown");
 });
 
+test("the picture is told in words, and keys go from organ to organ along the plant", async () => {
+  const words = page.locator("#picture-words");
+  await page.waitForFunction(() => /^1 plant, [\d.]+ m tall, 3,280 internodes, step 8 of 8$/.test(document.querySelector("#picture-words").textContent));
+  await page.locator(".viewport canvas").focus();
+  const places = [];
+  for (let i = 0; i < 3; i++) {
+    await page.keyboard.press("n");
+    await page.waitForFunction((wanted) => document.querySelector("#picture-words").textContent.includes(`organ ${wanted} of 3,280`), i + 1);
+    places.push(await page.locator(".pick-head code").textContent());
+  }
+  assert.equal(places[0], `Internode(7,${(1.02 ** 7).toPrecision(6)})`);
+  assert.match(await words.textContent(), /, born in step \d/);
+  assert.equal(await page.evaluate(() => document.activeElement.tagName), "CANVAS");
+  await page.keyboard.press("b");
+  await page.waitForFunction(() => document.querySelector("#picture-words").textContent.includes("organ 2 of 3,280"));
+  assert.equal(await page.locator(".pick-head code").textContent(), places[1]);
+  await shot(page, "organ-by-key");
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("b");
+  await page.waitForFunction(() => document.querySelector("#picture-words").textContent.includes("organ 3,280 of 3,280"));
+  await page.keyboard.press("Escape");
+  await page.getByRole("tab", { name: "Settings", exact: true }).click();
+});
+
 test("a number may be written with a decimal comma", async () => {
   const ratio = page.getByRole("textbox", { name: /as a number/ }).nth(1);
   await ratio.fill("0,75");

@@ -171,7 +171,7 @@ test("another seed is another plant, and undo brings the first one back", async 
   await page.keyboard.press("Control+z");
   await page.waitForFunction((old) => document.querySelector("#setting-seed").value === old, seed);
   await grown();
-  await page.locator(".pick-head button").evaluateAll((buttons) => buttons.forEach((button) => button.click()));
+  await page.locator(".pick-head [aria-label='Forget this organ']").evaluateAll((buttons) => buttons.forEach((button) => button.click()));
   await shot(page, "seed");
 });
 
