@@ -766,8 +766,8 @@ export interface Growth {
   growth: number;
   /** version of the document that grows. */
   version: number;
-  /** `stopped` by a request, `failed` with a reason. */
-  state: "growing" | "done" | "stopped" | "failed";
+  /** `asks` before it becomes very large, `stopped` by a request, `failed` with a reason. */
+  state: "growing" | "asks" | "done" | "stopped" | "failed";
   /** newest step; -1: none so far; at least -1. */
   step: number;
   /** step to which it grows. */
@@ -780,7 +780,7 @@ export interface Growth {
   derived: number;
   /** from its beginning to the newest step. */
   seconds: number;
-  /** why it failed. */
+  /** why it failed, or what it asks. */
   reason: string;
   /** names of its plants. */
   plants: string[];
@@ -976,6 +976,8 @@ export interface Requests {
   "forget-measured": { send: ForgetRequest; get: object };
   /** sends the packet of a step, once it has been drawn. */
   "frame": { send: StepRequest; get: NewestStep };
+  /** goes on with a growth whose state is `asks`; later growths of the document do not ask. */
+  "go-on": { send: object; get: object };
   /** edits a graph of components; its text follows. */
   "graph": { send: GraphRequest; get: NewVersion };
   /** grows on to a step. */

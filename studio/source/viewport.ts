@@ -24,6 +24,7 @@ import { Film } from "./film.js";
 import { Hints } from "./hints.js";
 import { LimbLook } from "./limbs.js";
 import { PictureWords } from "./picture-words.js";
+import { largeQuestion } from "./question.js";
 import { SunDial } from "./sun-dial.js";
 
 export class Viewport {
@@ -82,7 +83,7 @@ export class Viewport {
         "picture-over",
         {},
         this.toolbar(film),
-        h("div", "picture-left", {}, this.limbs.element, comparison.element, this.fieldTools, this.legend),
+        h("div", "picture-left", {}, largeQuestion(studio), this.limbs.element, comparison.element, this.fieldTools, this.legend),
       ),
       this.dial.element,
       this.scale,

@@ -369,6 +369,20 @@ test("a link says what it needs, and opens in a studio at another port, by paste
   await other.kill();
 });
 
+test("a plant that becomes very large asks before, and stops if it is told so", async () => {
+  const doubling = "lsystem: 1\nderivation length: 30\naxiom: A\nA --> AA\nendlsystem\n";
+  writeFileSync(join(place.folder, "doubling.l"), doubling);
+  await openFromGallery("plants/doubling.l");
+  await page.waitForSelector(".status[data-state=asks]");
+  const question = page.getByRole("alert").filter({ hasText: "very large" });
+  assert.match(await question.textContent(), /step 23 may have 8,388,608 modules\./);
+  await shot(page, "asks");
+  await question.getByRole("button", { name: "Stop here" }).click();
+  await page.waitForSelector(".status[data-state=stopped]");
+  assert.equal(await question.isVisible(), false);
+  assert.match(await page.locator(".status .counts").textContent(), /^4,194,304 modules/);
+});
+
 test("a wrong key says so, and the right address is taken", async () => {
   const wrong = await openPage(browser, program.address.replace(/token=.*/, "token=00000000000000000000000000000000"));
   await wrong.waitForSelector(".banner:not([hidden])");
