@@ -69,7 +69,8 @@ TEST_CASE("a sweep grows a plant for each value, and the document stays as it wa
     // The packets name their growths.
     std::vector<std::size_t> drawn;
     for (const std::string& bytes : page.packets) {
-        if (bytes.starts_with("ESP1") && number_at<std::uint32_t>(bytes, 4) >= first) drawn.push_back(internodes(bytes));
+        if (bytes.starts_with("ESP1") && number_at<std::uint32_t>(bytes, 4) >= first)
+            drawn.push_back(internodes(bytes));
     }
     CHECK(drawn == std::vector<std::size_t>{1, 4, 7});
     CHECK(page.last("document") == before);

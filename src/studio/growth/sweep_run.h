@@ -1,4 +1,5 @@
-// Grows what is open with one number swept, plant after plant, beside the thread that serves. The document stays as it is.
+// Grows what is open with one number swept, plant after plant, beside the thread that serves. The document stays as it
+// is.
 #pragma once
 
 #include "espalier/base/read_log.h"

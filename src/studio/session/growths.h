@@ -87,12 +87,12 @@ private:
     RetiredGrowths retired_;
     GrowthProgress progress_;
     Pace pace_;
-    int follow_from_ = 0;           ///< pages that look at the last step see every one from here on
-    bool is_opening_ = false;       ///< no growth of the document has shown anything yet
-    std::filesystem::path opened_;  ///< the last document of which one has
+    int follow_from_ = 0;                 ///< pages that look at the last step see every one from here on
+    bool is_opening_ = false;             ///< no growth of the document has shown anything yet
+    std::filesystem::path opened_;        ///< the last document of which one has
     std::filesystem::path may_be_large_;  ///< the document whose growths need not ask
     bool has_asked_ = false;              ///< the present growth has, and was not told to go on
-    bool is_busy_ = false;          ///< the newest growth has not come to its end
+    bool is_busy_ = false;                ///< the newest growth has not come to its end
 };
 
 }  // namespace espalier::studio

@@ -28,7 +28,8 @@ struct GrowthState {
     static void declare(Self& self, const Fields& field) {
         field("growth", self.growth, "its number: another number is another growth");
         field("version", self.version, "version of the document that grows");
-        field("state", self.state, "`asks` before it becomes very large, `stopped` by a request, `failed` with a reason",
+        field("state", self.state,
+              "`asks` before it becomes very large, `stopped` by a request, `failed` with a reason",
               one_of("growing asks done stopped failed"));
         field("step", self.step, "newest step; -1: none so far", at_least(-1));
         field("last", self.last, "step to which it grows");

@@ -49,8 +49,9 @@ Nothing stop_sweep(SessionParts& session, Viewer& viewer, const Nothing&) {
     return {};
 }
 
-const Registered<RequestType> sweep_entry{request(
-    "sweep", "grows the document with other values of a setting, one after the other: `swept` follows for each", sweep)};
+const Registered<RequestType> sweep_entry{
+    request("sweep", "grows the document with other values of a setting, one after the other: `swept` follows for each",
+            sweep)};
 const Registered<RequestType> stop_sweep_entry{
     request("stop-sweep", "ends the sweep of this page; no more `swept` follows", stop_sweep)};
 
