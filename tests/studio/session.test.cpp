@@ -391,6 +391,13 @@ TEST_CASE("a growth asks before it passes five million modules, and once for a d
     }
 }
 
+TEST_CASE("a plant that stands there at once is not taken for one that multiplies", "[studio][stop]") {
+    OpenStudio studio("lsystem: 1\nderivation length: 3\naxiom: A\nA --> " + std::string(3000, 'F') + "\nendlsystem\n");
+    ListeningPage& page = studio.begin();
+    studio.wait([&] { return page.last("growth").is_object() && page.last("growth")["state"] != "growing"; });
+    CHECK(page.last("growth")["state"] == "done");
+}
+
 TEST_CASE("a change ends the endless growth before it, and so does the end of the studio", "[studio][stop]") {
     const auto begin = std::chrono::steady_clock::now();
     {

@@ -106,7 +106,8 @@ struct Growth::Work {
     bool is_ended = false;                     ///< the model has stopped
     bool told_stop = false;                    ///< or that it asks
     std::size_t modules = 0;                   ///< of the last step that was derived here
-    std::size_t expected = 0;                  ///< of the next, if they multiply as in that step
+    double factor = 0;                         ///< by which they multiplied in it; 0: not known
+    std::size_t expected = 0;                  ///< of the next step, as far as two steps tell
     bool is_deriving = false;
     bool is_whole = true;        ///< the world is not in the midst of a step
     bool draws_in_order = true;  ///< until it was told to stop while it did
@@ -361,7 +362,9 @@ void Growth::note_derived(Work& work) {
     ++work.own_steps;
     work.is_ended = work.world.stopped();
     const std::size_t before = std::exchange(work.modules, work.world.modules());
-    work.expected = before > 0 ? static_cast<std::size_t>(double(work.modules) / before * work.modules) : 0;
+    const double factor = before > 0 ? double(work.modules) / double(before) : 0;
+    // An axiom that becomes a whole plant in one step does not go on like that.
+    work.expected = static_cast<std::size_t>(std::min(factor, std::exchange(work.factor, factor)) * double(work.modules));
     work.told_stop = false;
     work.draws_in_order = true;
     if (!may_extend_) last_step_ = work.world.last_step();  // models may change it
