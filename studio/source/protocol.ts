@@ -598,6 +598,8 @@ export interface TextFile {
   changed: boolean;
   /** another program has written the file meanwhile: it is not saved before `settle`. */
   disputed: boolean;
+  /** what the file then holds, if it is a text. */
+  disk?: string;
 }
 
 /** a number or a switch that a text writes; to change it changes the text. */

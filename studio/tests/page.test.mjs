@@ -170,6 +170,8 @@ test("another program's text is read again, and where this page has changes it a
   writeFileSync(file, tree.replace("#define ANGLE 32", "#define ANGLE 55"));
   const question = page.locator(".dispute");
   await question.waitFor();
+  assert.deepEqual(await question.locator("del code").allTextContents(), ["/* A tree for tests", "#define ANGLE 55      /* angle of branches; 5..80; degrees */"]);
+  assert.deepEqual(await question.locator("ins code").allTextContents(), ["/* mine */ /* A tree for tests", "#define ANGLE 21      /* angle of branches; 5..80; degrees */"]);
   await shot(page, "dispute");
   await page.keyboard.press("Control+s");
   await page.locator(".message.error").waitFor();

@@ -178,7 +178,7 @@ test("another seed is another plant, and undo brings the first one back", async 
 test("charts follow the statistics, and a pinned growth stays beside a later one", async () => {
   await page.getByRole("tab", { name: "Charts" }).click();
   await page.waitForSelector(".chart canvas");
-  await page.getByRole("button", { name: "Pin this growth" }).click();
+  await page.getByRole("button", { name: "Pin this growth", exact: true }).click();
   await page.getByRole("tab", { name: "Settings" }).click();
   await page.locator("#setting-RATIO").focus();
   for (let i = 0; i < 20; i++) await page.keyboard.press("ArrowLeft");

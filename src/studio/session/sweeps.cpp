@@ -36,6 +36,15 @@ std::uint32_t Sweeps::begin(const Page& page, SweepOrder order) {
     return first;
 }
 
+void Sweeps::forget(const Page& page) {
+    std::erase_if(ending_, [](const auto& run) { return run->has_ended(); });
+    const auto run = runs_.find(&page);
+    if (run == runs_.end()) return;
+    run->second.run->stop();
+    ending_.push_back(std::move(run->second.run));
+    runs_.erase(run);
+}
+
 void Sweeps::tell(const Page* page, std::uint32_t sweep, const SweptPlant& plant) {
     const auto run = runs_.find(page);
     Viewer* const viewer = pages_.find(page);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <vector>
 
 namespace espalier::studio {
 
@@ -19,7 +20,7 @@ public:
     /// Instead of what the page asked for before. Returns the number of the first growth.
     std::uint32_t begin(const Page& page, SweepOrder order);
     /// Ends that of a page, dropping the plant at hand.
-    void forget(const Page& page) { runs_.erase(&page); }
+    void forget(const Page& page);
 
 private:
     void tell(const Page* page, std::uint32_t sweep, const SweptPlant& plant);
@@ -34,6 +35,7 @@ private:
     const Post post_;
     std::uint32_t next_ = std::uint32_t(1) << 31;  ///< above the numbers of growths that pages share
     std::map<const Page*, Run> runs_;
+    std::vector<std::unique_ptr<SweepRun>> ending_;  ///< nobody waits for them
 };
 
 }  // namespace espalier::studio
