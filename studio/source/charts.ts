@@ -1,5 +1,6 @@
 /** Charts of the statistics over steps, beside those of a growth that was pinned before. */
 import type uPlot from "uplot";
+import type { Comparison } from "./compare.js";
 import { h, icon, remember, remembered } from "./elements.js";
 import { plotOverSteps, showStep, type Curve } from "./plot.js";
 import type { Statistics } from "./protocol.js";
@@ -16,7 +17,6 @@ export class ChartsPanel {
   private readonly place = h("div", "chart-list");
   private readonly pinButton: HTMLButtonElement;
   private chips = new Map<string, HTMLButtonElement>();
-  private pinned: Statistics | null = null;
   private plots: uPlot[] = [];
   private chosen = remembered<string[]>("charts", []);
   private offered: string[] = [];
@@ -25,6 +25,7 @@ export class ChartsPanel {
   constructor(
     private readonly studio: Studio,
     private readonly timeline: Timeline,
+    private readonly comparison: Comparison,
     /** Columns that the author of a page asks for; none: those that were chosen last. */
     wanted: string[] = [],
   ) {
@@ -32,7 +33,7 @@ export class ChartsPanel {
     this.pinButton = h(
       "button",
       "button small",
-      { type: "button", "aria-pressed": "false", onclick: () => this.pin() },
+      { type: "button", "aria-pressed": "false", onclick: () => comparison.toggle() },
       icon("pin"),
       "Pin this growth",
     );
@@ -50,6 +51,7 @@ export class ChartsPanel {
     studio.on("statistics", () => this.later());
     studio.on("theme", () => this.later());
     studio.on("measured", () => this.later());
+    studio.on("compared", () => this.showPin());
     studio.on("shown", () => this.plots.forEach(showStep));
     new ResizeObserver(() => this.later()).observe(this.element);
   }
@@ -94,11 +96,14 @@ export class ChartsPanel {
     for (const [name, chip] of this.chips) chip.setAttribute("aria-pressed", String(this.chosen.includes(name)));
   }
 
-  private pin(): void {
-    this.pinned = this.pinned ? null : structuredClone(this.studio.statistics);
+  private get pinned(): Statistics | null {
+    return this.comparison.pinned?.statistics ?? null;
+  }
+
+  private showPin(): void {
     this.pinButton.setAttribute("aria-pressed", String(this.pinned !== null));
     this.pinButton.replaceChildren(icon("pin"), this.pinned ? "Remove the pin" : "Pin this growth");
-    this.draw();
+    this.later();
   }
 
   private draw(): void {

@@ -31,6 +31,11 @@ export class Frames {
     return this.cache.get(step);
   }
 
+  /** The packets at hand; the same map until another growth begins. */
+  get packets(): ReadonlyMap<number, Packet> {
+    return this.cache;
+  }
+
   /** The last step that has grown. */
   get lastStep(): number {
     return Math.max(0, this.studio.growth?.step ?? 0, this.newest);

@@ -159,6 +159,7 @@ const keys: [string, string][] = [
   ["F", "show the whole plant"],
   ["Home", "first view"],
   ["Click, Escape", "an organ tells about itself; forget it"],
+  ["N, B", "to the next organ along the plant, and back"],
   ["Shift and drag, right button", "move the picture"],
   ["P", "play or pause"],
   [", and .", "one step back, one step on"],

@@ -1,6 +1,7 @@
 /** The studio: puts the page together. */
 import { Changes } from "./changes.js";
 import { ChartsPanel } from "./charts.js";
+import { Comparison } from "./compare.js";
 import { Editor } from "./editor/editor.js";
 import { FitPanel } from "./fit.js";
 import { Gallery } from "./gallery.js";
@@ -16,6 +17,7 @@ import { hasModel, openLink, openNamed } from "./links.js";
 import { tellReadiness } from "./readiness.js";
 import { Studio } from "./state.js";
 import { StatusLine } from "./status.js";
+import { Sweep } from "./sweep.js";
 import { Timeline } from "./timeline.js";
 import { Viewport } from "./viewport.js";
 
@@ -25,7 +27,7 @@ function useTheme(studio: Studio): void {
   studio.on("theme", apply);
 }
 
-function keysOfThePage(header: Header, timeline: Timeline, forget: () => void): void {
+function keysOfThePage(header: Header, timeline: Timeline, picked: PickPanel): void {
   document.addEventListener("keydown", (event) => {
     const target = event.target as HTMLElement;
     const command = event.ctrlKey || event.metaKey;
@@ -40,7 +42,9 @@ function keysOfThePage(header: Header, timeline: Timeline, forget: () => void): 
       ? { z: () => void header.step(event.shiftKey ? "redo" : "undo"), y: () => void header.step("redo") }
       : {
           p: () => timeline.toggle(),
-          escape: forget,
+          escape: () => void picked.pick(null),
+          n: () => void picked.go(1),
+          b: () => void picked.go(-1),
           ",": () => timeline.goTo(timeline.step - 1),
           ".": () => timeline.goTo(timeline.step + 1),
         };
@@ -79,7 +83,8 @@ function start(): void {
   const timeline = new Timeline(studio);
   const editor = new Editor(studio, changes, lesson !== null && lesson.texts !== "free");
   const messages = new Messages(studio);
-  const viewport = new Viewport(studio, timeline, (module) => void picked.pick(module));
+  const comparison = new Comparison(studio, () => viewport.scene);
+  const viewport: Viewport = new Viewport(studio, timeline, comparison, (module) => void picked.pick(module));
   const picked: PickPanel = new PickPanel(
     studio,
     () => viewport.scene,
@@ -89,10 +94,12 @@ function start(): void {
       viewport.hints.did("asked");
       tabs.show("Organ");
     },
+    (words) => viewport.words.say(words),
   );
   timeline.started = () => viewport.hints.did("played");
-  const charts = new ChartsPanel(studio, timeline, lesson?.charts);
-  const settings = new SettingsPanel(studio, changes);
+  const charts = new ChartsPanel(studio, timeline, comparison, lesson?.charts);
+  const sweep = new Sweep(studio, changes, () => viewport.scene);
+  const settings = new SettingsPanel(studio, changes, null, (setting) => sweep.open(setting));
   const gallery = new Gallery(studio, () => studio.frames.look("last"));
   const graph: GraphPanel = new GraphPanel(studio, changes, editor, (offered) => tabs.offer("Graph", offered));
   const tabs = new Tabs(
@@ -127,7 +134,7 @@ function start(): void {
     messages.element,
     gallery.element,
   );
-  keysOfThePage(header, timeline, () => void picked.pick(null));
+  keysOfThePage(header, timeline, picked);
   gallery.behind = [layout.element, timeline.element];
   let first = true;
   studio.on("connection", (state) => {

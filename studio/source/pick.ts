@@ -6,7 +6,7 @@ import { plotOverSteps } from "./plot.js";
 import type { Parent, Picked, Place } from "./protocol.js";
 import type { Studio } from "./state.js";
 import type { Timeline } from "./timeline.js";
-import type { PlantScene } from "./view/index.js";
+import { drawnModules, type Packet, type PlantScene } from "./view/index.js";
 
 export class PickPanel {
   readonly element = h("div", "pick");
@@ -14,6 +14,10 @@ export class PickPanel {
   private module: number | null = null;
   private growth = -1;
   private step = -1;
+  /** The organs of a packet, along the plant. */
+  private organs: Uint32Array = new Uint32Array(0);
+  private organsOf: Packet | null = null;
+  private going = false;
 
   constructor(
     private readonly studio: Studio,
@@ -21,6 +25,8 @@ export class PickPanel {
     private readonly editor: Editor,
     private readonly timeline: Timeline,
     private readonly opened: () => void,
+    /** Tells those who cannot see the picture. */
+    private readonly say: (words: string) => void,
   ) {
     this.empty();
     studio.on("theme", () => {
@@ -49,6 +55,26 @@ export class PickPanel {
     this.draw(picked);
   }
 
+  /** To the next organ along the plant, or by -1 to the one before; from the first one if none is picked. */
+  async go(by: 1 | -1): Promise<void> {
+    const { shown } = this.studio.frames;
+    if (!shown || this.going) return;
+    if (shown !== this.organsOf) this.organs = drawnModules(shown);
+    this.organsOf = shown;
+    const { module, organs } = this;
+    const behind = module === null ? 0 : organs.findIndex((organ) => organ >= module);
+    const next = module === null ? (by > 0 ? 0 : organs.length - 1) : (behind + by + organs.length) % organs.length;
+    const organ = organs[next];
+    if (organ === undefined) return;
+    this.going = true;
+    await this.pick(organ);
+    this.going = false;
+    const { picked } = this;
+    if (!picked || this.module !== organ) return;
+    const born = picked.born === undefined ? "" : `, born in step ${picked.born}`;
+    this.say(`${picked.text}, organ ${whole(next + 1)} of ${whole(organs.length)}${born}, ${picked.plant}`);
+  }
+
   private forget(): void {
     this.picked = null;
     this.module = null;
@@ -59,7 +85,7 @@ export class PickPanel {
 
   private empty(): void {
     this.element.replaceChildren(
-      h("p", "hint", {}, "Click an organ of the plant to see what it is, where it comes from and how it has changed."),
+      h("p", "hint", {}, "Click an organ of the plant, or press N, to see what it is, where it comes from and how it has changed."),
     );
   }
 
@@ -70,6 +96,8 @@ export class PickPanel {
         "pick-head",
         {},
         h("code", "", {}, picked.text),
+        iconButton("back", "Organ before (B)", () => void this.go(-1)),
+        iconButton("forward", "Next organ (N)", () => void this.go(1)),
         iconButton("close", "Forget this organ", () => this.forget()),
       ),
       this.facts(picked),

@@ -67,6 +67,8 @@ export interface PlotOptions {
   width: number;
   height: number;
   small?: boolean;
+  /** What the curves run over, instead of steps. */
+  along?: string;
   step: () => number;
   clicked: (step: number) => void;
 }
@@ -82,7 +84,7 @@ export function plotOverSteps(place: HTMLElement, steps: number[], curves: Curve
       cursor: { y: false, drag: { x: false, y: false }, points: { size: 5 } },
       plugins: [stepMark(options.step)],
       series: [
-        { label: "step", value: (_, value) => String(value ?? options.step()) },
+        { label: options.along ?? "step", value: (_, value) => String(value ?? options.step()) },
         ...curves.map((curve, index): uPlot.Series => ({
           label: curve.name,
           stroke: themeColour(at(colours, (curve.colour ?? index) % colours.length)),

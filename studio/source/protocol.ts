@@ -514,6 +514,20 @@ export interface SettleRequest {
   take: "disk" | "mine";
 }
 
+/** values of a setting, each of which grows a plant. */
+export interface SweepRequest {
+  /** of the setting. */
+  name: string;
+  /** as texts write them; 24 at most. */
+  values: string[];
+}
+
+/** the growths of a sweep. */
+export interface SweptGrowths {
+  /** number of the first growth; those of the other values follow. */
+  first: number;
+}
+
 /** another value for a setting of a view file. */
 export interface ViewRequest {
   /** path of its text. */
@@ -586,6 +600,8 @@ export interface TextFile {
   changed: boolean;
   /** another program has written the file meanwhile: it is not saved before `settle`. */
   disputed: boolean;
+  /** what the file then holds, if it is a text. */
+  disk?: string;
 }
 
 /** a number or a switch that a text writes; to change it changes the text. */
@@ -754,8 +770,8 @@ export interface Growth {
   growth: number;
   /** version of the document that grows. */
   version: number;
-  /** `stopped` by a request, `failed` with a reason. */
-  state: "growing" | "done" | "stopped" | "failed";
+  /** `asks` before it becomes very large, `stopped` by a request, `failed` with a reason. */
+  state: "growing" | "asks" | "done" | "stopped" | "failed";
   /** newest step; -1: none so far; at least -1. */
   step: number;
   /** step to which it grows. */
@@ -768,7 +784,7 @@ export interface Growth {
   derived: number;
   /** from its beginning to the newest step. */
   seconds: number;
-  /** why it failed. */
+  /** why it failed, or what it asks. */
   reason: string;
   /** names of its plants. */
   plants: string[];
@@ -898,6 +914,14 @@ export interface Statistics {
   rows: Cell[][];
 }
 
+/** a plant of a sweep has grown. */
+export interface Swept {
+  /** its number. */
+  growth: number;
+  /** why it did not grow; empty otherwise. */
+  reason: string;
+}
+
 /** pictures that plants wear. */
 export interface Textures {
   /** number of the growth. */
@@ -956,6 +980,8 @@ export interface Requests {
   "forget-measured": { send: ForgetRequest; get: object };
   /** sends the packet of a step, once it has been drawn. */
   "frame": { send: StepRequest; get: NewestStep };
+  /** goes on with a growth whose state is `asks`; later growths of the document do not ask. */
+  "go-on": { send: object; get: object };
   /** edits a graph of components; its text follows. */
   "graph": { send: GraphRequest; get: NewVersion };
   /** grows on to a step. */
@@ -996,6 +1022,10 @@ export interface Requests {
   "stop": { send: object; get: object };
   /** ends a fit: `fitted` follows. */
   "stop-fit": { send: object; get: object };
+  /** ends the sweep of this page; no more `swept` follows. */
+  "stop-sweep": { send: object; get: object };
+  /** grows the document with other values of a setting, one after the other: `swept` follows for each. */
+  "sweep": { send: SweepRequest; get: SweptGrowths };
   /** takes back one lasting change. */
   "undo": { send: object; get: NewVersion };
   /** changes a setting of a view file; its text follows. */
@@ -1017,6 +1047,7 @@ export type Said =
   | ({ say: "progress" } & Progress)
   | ({ say: "sky" } & SkyOfStep)
   | ({ say: "statistics" } & Statistics)
+  | ({ say: "swept" } & Swept)
   | ({ say: "textures" } & Textures)
   | ({ say: "told" } & AllTold)
   | ({ say: "view" } & View);

@@ -24,7 +24,7 @@ function isSwitch(setting: Setting): boolean {
 }
 
 /** The ends of a slider: those of the setting, or a span around its default. */
-function span(setting: Setting): { lowest: number; highest: number; step: number } {
+export function span(setting: Setting): { lowest: number; highest: number; step: number } {
   const usual = Number(setting.default);
   const base = Number.isFinite(usual) && usual !== 0 ? usual : setting.value || 1;
   // A place may lie on either side of the origin.
@@ -84,6 +84,8 @@ export class SettingsPanel {
     private readonly changes: Changes,
     /** Names of those that it shows, in their order, and nothing else; null: all, with seed and steps. */
     private readonly chosen: string[] | null = null,
+    /** Called to sweep a number through a range. */
+    private readonly sweep: ((setting: Setting) => void) | null = null,
   ) {
     studio.on("document", (document) => this.show({ ...document, settings: this.choose(document) }));
   }
@@ -143,7 +145,10 @@ export class SettingsPanel {
     };
     const control = controlOf(setting, send);
     const reset = iconButton("reset", `Back to ${setting.default}`, () => send(null, true));
+    let latest = setting;
     const [own, more] = partsOf(setting);
+    const sweep = iconButton("gallery", `Sweep ${own} …`, () => this.sweep?.(latest));
+    sweep.hidden = isSwitch(setting) || this.sweep === null;
     const name = h(
       "label",
       "",
@@ -151,10 +156,11 @@ export class SettingsPanel {
       own,
       h("small", "", {}, more ? ` ${more}` : ""),
     );
-    const row = h("div", "setting", {}, h("div", "setting-head", {}, name, reset), control.element);
+    const row = h("div", "setting", {}, h("div", "setting-head", {}, name, reset, sweep), control.element);
     this.rows.set(setting.name, {
       element: row,
       update: (now) => {
+        latest = now;
         row.classList.toggle("changed", now.changed);
         reset.hidden = !now.changed;
         control.update(now);

@@ -22,12 +22,25 @@ import type {
   Statistics,
   StudioDocument,
 } from "./protocol.js";
-import type { BinaryMessage, Column, Field, Limbs, Packet, PictureSource, Shapes } from "./view/index.js";
+import type { BinaryMessage, Column, Field, Limbs, Packet, PictureSource, Shape, Shapes } from "./view/index.js";
 
 /** A note of the server's, or one of the page itself, which has a negative number. */
 export type Message = Note;
 
 const noteTime = 8000; // milliseconds
+const firstSwept = 2 ** 31; // number of a growth
+
+/** The last step of a plant of a sweep. */
+export interface SweptPlant {
+  growth: number;
+  /** Why there is none; "" otherwise. */
+  reason: string;
+  packet: Packet | null;
+  shapes: Shape[];
+  statistics: Statistics | null;
+}
+
+const nothingSwept: SweptPlant = { growth: 0, reason: "", packet: null, shapes: [], statistics: null };
 
 interface Events {
   connection: ConnectionState;
@@ -58,6 +71,9 @@ interface Events {
   measured: MeasuredFile[];
   fitting: FitState;
   fitted: FitEnd;
+  swept: SweptPlant;
+  /** A growth was pinned or let go, or is looked at in another way. */
+  compared: null;
   theme: "light" | "dark";
   /** Whether a slider of a setting is being moved. */
   sliding: boolean;
@@ -95,6 +111,8 @@ export class Studio {
   messages: Message[] = [];
   theme: "light" | "dark";
   private ownMessages = 0;
+  /** What has come so far of the plant that a sweep grows. */
+  private swept: SweptPlant = nothingSwept;
   private readonly listeners: { [Name in keyof Events]?: Listener<Name>[] } = {};
 
   constructor(readonly token: string) {
@@ -205,6 +223,10 @@ export class Studio {
         return this.emit("fitting", message);
       case "fitted":
         return this.emit("fitted", message);
+      case "swept":
+        this.emit("swept", { ...this.swept, growth: message.growth, reason: message.reason });
+        this.swept = nothingSwept;
+        return;
       case "progress":
         return this.emit("progress", message);
       case "told":
@@ -227,6 +249,10 @@ export class Studio {
   }
 
   private hearStatistics(more: Statistics): void {
+    if (more.growth >= firstSwept) {
+      this.swept = { ...this.swept, statistics: more };
+      return;
+    }
     const same = more.growth === this.statistics.growth && sameTexts(more.columns, this.statistics.columns);
     const rows = same ? withRows(this.statistics.rows, more.rows) : more.rows;
     this.statistics = { ...this.statistics, ...more, rows };
@@ -245,7 +271,10 @@ export class Studio {
   }
 
   private take(message: BinaryMessage): void {
-    if (message.kind === "packet") {
+    if (message.growth >= firstSwept) {
+      if (message.kind === "packet") this.swept = { ...this.swept, packet: message };
+      if (message.kind === "shapes") this.swept = { ...this.swept, shapes: [...this.swept.shapes, ...message.shapes] };
+    } else if (message.kind === "packet") {
       this.frames.arrived(message);
       this.emit("packet", message);
     } else if (message.kind === "shapes") this.learn(message);

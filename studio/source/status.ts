@@ -2,10 +2,12 @@
 import { h, whole } from "./elements.js";
 import type { Growth } from "./protocol.js";
 import type { Studio } from "./state.js";
+import { secondsLeft, type Moment } from "./time-left.js";
 import type { PlantScene } from "./view/index.js";
 
 const names: Record<Growth["state"], string> = {
   growing: "growing",
+  asks: "waits",
   done: "grown",
   stopped: "stopped",
   failed: "failed",
@@ -14,7 +16,9 @@ const names: Record<Growth["state"], string> = {
 function duration(seconds: number): string {
   if (seconds < 1) return `${Math.round(seconds * 1000)} ms`;
   if (seconds < 90) return `${seconds.toFixed(seconds < 10 ? 1 : 0)} s`;
-  return `${Math.round(seconds / 60)} min`;
+  if (seconds < 90 * 60) return `${Math.round(seconds / 60)} min`;
+  if (seconds < 48 * 3600) return `${Math.round(seconds / 3600)} hours`;
+  return seconds < 365 * 86400 ? `${Math.round(seconds / 86400)} days` : "more than a year";
 }
 
 export class StatusLine {
@@ -24,7 +28,8 @@ export class StatusLine {
   private readonly progress = h("progress", "", { max: 1, value: 0, hidden: true, "aria-label": "Progress" });
   private readonly counts = h("span", "counts");
   private readonly what = h("span", "what");
-  private began = { growth: -1, step: 0, at: 0 };
+  private grown: Moment[] = [];
+  private grownOf = -1;
 
   constructor(
     private readonly studio: Studio,
@@ -49,7 +54,7 @@ export class StatusLine {
     if (!growth) return;
     const wrong = this.studio.problems.filter(({ severity }) => severity === "error").length;
     const busy = growth.state === "growing";
-    if (growth.growth !== this.began.growth) this.began = { growth: growth.growth, step: growth.step, at: performance.now() };
+    this.note(growth);
     const recorded = growth.state === "done" && this.studio.document?.kind === "run";
     const state =
       wrong > 0
@@ -63,13 +68,16 @@ export class StatusLine {
     this.showCounts();
   }
 
+  private note({ growth, step, seconds, modules }: Growth): void {
+    if (growth !== this.grownOf) this.grown = [];
+    this.grownOf = growth;
+    if (step >= 0 && step !== this.grown.at(-1)?.step) this.grown = [...this.grown.slice(-30), { step, seconds, modules }];
+  }
+
   private timeLeft(growth: Growth): string {
-    const grown = growth.step - this.began.step;
     const text = `step ${Math.max(0, growth.step)} of ${growth.last}`;
-    const spent = (performance.now() - this.began.at) / 1000;
-    if (grown < 1 || spent < 1) return text;
-    // Plants grow: each further step takes at least as long as the mean of those before.
-    return `${text}, about ${duration((spent / grown) * (growth.last - growth.step))} left`;
+    const left = growth.seconds < 1 ? null : secondsLeft(this.grown, growth.last);
+    return left === null ? text : `${text}, about ${duration(left)} left`;
   }
 
   /** As the statistics of all plants say; null while they are on their way. */

@@ -19,16 +19,20 @@ import { errorText, type Studio } from "./state.js";
 import type { Timeline } from "./timeline.js";
 import { menuButton } from "./dialog.js";
 import { CloudLook } from "./cloud.js";
+import type { Comparison } from "./compare.js";
 import { Film } from "./film.js";
 import { Hints } from "./hints.js";
 import { LimbLook } from "./limbs.js";
+import { PictureWords } from "./picture-words.js";
+import { largeQuestion } from "./question.js";
 import { SunDial } from "./sun-dial.js";
 
 export class Viewport {
   readonly element: HTMLElement;
   readonly scene: PlantScene;
   private readonly canvas = h("canvas", "", {
-    "aria-label": "The plant. Arrows turn, + and - zoom, Space and Shift raise and lower, F fits.",
+    "aria-label": "The plant. Arrows turn, + and - zoom, Space and Shift raise and lower, F fits, N and B go from organ to organ.",
+    "aria-describedby": "picture-words",
   });
   private readonly colourSelect = h("select", "", { "aria-label": "Colour by" });
   private readonly fieldSelect = h("select", "", { "aria-label": "Field" });
@@ -37,8 +41,10 @@ export class Viewport {
   private field: Field | null = null;
   private readonly legend = h("div", "legend", { hidden: true, "aria-live": "polite" });
   private readonly scale = h("div", "scale-note");
+  private readonly pin = iconButton("pin", "Pin this growth: it stands beside what you change then", () => this.comparison.toggle());
   private readonly limbs: LimbLook;
   readonly hints: Hints;
+  readonly words: PictureWords;
   private colouring = remembered("colouring", "");
   private fieldName = "";
   private askedField = "";
@@ -54,12 +60,14 @@ export class Viewport {
   constructor(
     private readonly studio: Studio,
     timeline: Timeline,
+    private readonly comparison: Comparison,
     clicked: (module: number | null) => void,
   ) {
     this.scene = new PlantScene(this.canvas);
     this.scene.theme = themes[studio.theme];
     steer(this.scene, { clicked: (x, y) => clicked(this.scene.pick(x, y)) });
     this.hints = new Hints(studio);
+    this.words = new PictureWords(studio, this.scene);
     new CloudLook(studio, this.scene, () => this.chooseField(this.fieldName));
     this.canvas.addEventListener("pointerup", () => this.hints.did("turned"));
     this.limbs = new LimbLook(studio, this.scene);
@@ -75,11 +83,12 @@ export class Viewport {
         "picture-over",
         {},
         this.toolbar(film),
-        h("div", "picture-left", {}, this.limbs.element, this.fieldTools, this.legend),
+        h("div", "picture-left", {}, largeQuestion(studio), this.limbs.element, comparison.element, this.fieldTools, this.legend),
       ),
       this.dial.element,
       this.scale,
       this.hints.element,
+      this.words.element,
     );
     this.scene.drawn = () => this.dial.turn(this.scene.orbit.state.azimuth);
     new ResizeObserver(() => this.scene.resize(this.element.clientWidth, this.element.clientHeight)).observe(this.element);
@@ -100,6 +109,7 @@ export class Viewport {
     studio.on("fields", () => this.fillFields());
     studio.on("column", (column) => this.paint(column));
     studio.on("field", (field) => this.paintField(field));
+    studio.on("compared", () => this.compare());
     studio.on("measured", (files) => this.scene.setMeasured(files.map((file) => ({ ...file, relative: !file.has_scale }))));
     studio.on("view", (view) => this.followAuthor(view));
     studio.on("document", (document) => {
@@ -125,11 +135,20 @@ export class Viewport {
     this.scene.setSky(sky);
     this.dial.show(this.scene.shownSky);
     this.scene.show(packet);
+    this.comparison.show();
     this.scale.textContent = `grid ${short(this.scene.gridCell)} m`;
     this.element.dataset.step = String(packet.step);
     this.element.dataset.growth = String(packet.growth);
     this.element.dataset.triangles = String(triangleCount(packet));
     if (this.colouring && this.colouring !== "order") this.askColumn(packet);
+    if (this.fieldName) this.askField();
+  }
+
+  /** What is pinned has changed, or how it is looked at. */
+  private compare(): void {
+    this.pin.setAttribute("aria-pressed", String(this.comparison.pinned !== null));
+    this.colourBy(this.colouring);
+    this.askedField = "";
     if (this.fieldName) this.askField();
   }
 
@@ -167,6 +186,7 @@ export class Viewport {
         "div",
         "picture-buttons",
         {},
+        this.pin,
         iconButton("fit", "Show the whole plant (F)", () => this.scene.fit()),
         iconButton("home", "First view (Home)", () => this.scene.home()),
         look,
@@ -229,6 +249,7 @@ export class Viewport {
     this.askedColumn = "";
     this.legend.hidden = true;
     const { shown } = this.studio.frames;
+    this.comparison.colour(null);
     if (name === "") this.scene.colourBy(null);
     else if (!this.studio.columns.includes(name)) this.paintOrder(shown);
     else if (shown) this.askColumn(shown);
@@ -238,6 +259,7 @@ export class Viewport {
     let highest = 1;
     if (packet) for (let i = 4; i < packet.internodes.length; i += 6) highest = Math.max(highest, at(packet.internodes, i) >>> 24);
     this.scene.colourBy("order", [0, highest]);
+    this.comparison.colour("order");
     this.drawLegend("order of branching", 0, highest, "");
   }
 
@@ -254,8 +276,9 @@ export class Viewport {
   private paint(column: Column): void {
     const { shown } = this.studio.frames;
     if (column.name !== this.colouring || column.step !== shown?.step || column.growth !== shown.growth) return;
-    this.scene.colourBy(column);
-    this.drawLegend(column.name, column.lowest, column.highest, column.values.some(Number.isNaN) ? "grey: no value" : "");
+    const { data, name, note, range } = this.comparison.column(column);
+    this.scene.colourBy(data, range);
+    this.drawLegend(name, ...range, note);
   }
 
   private drawLegend(name: string, lowest: number, highest: number, note: string): void {
@@ -323,12 +346,13 @@ export class Viewport {
 
   private paintField(field: Field): void {
     if (`${field.growth} ${field.step} ${field.name}` !== this.askedField) return;
-    this.field = field;
+    const { data, name, note, range } = this.comparison.field(field);
+    this.field = data;
     this.element.dataset.field = `${field.name} ${field.step}`;
-    this.scene.showField(field, this.fieldLook);
+    this.scene.showField(data, this.fieldLook);
     this.showFieldValue();
-    const unit = this.studio.fields.find(({ name }) => name === field.name)?.unit ?? "";
-    this.drawLegend(`${field.name}${unit ? ` (${unit})` : ""}`, field.lowest, field.highest, `after step ${whole(field.step)}`);
+    const unit = this.studio.fields.find((known) => known.name === field.name)?.unit ?? "";
+    this.drawLegend(`${name}${unit ? ` (${unit})` : ""}`, ...range, note || `after step ${whole(field.step)}`);
     this.legendIsField = true;
   }
 

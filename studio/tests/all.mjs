@@ -2,7 +2,7 @@
 import { spawn } from "node:child_process";
 
 const program = process.argv.slice(2);
-const waiting = ["studio", "page", "editors", "fit", "share"]; // the longest first
+const waiting = ["studio", "page", "editors", "fit", "compare", "share"]; // the longest first
 
 /** Runs a file of tests; what it says is shown when it is done. */
 async function run(name) {

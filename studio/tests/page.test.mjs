@@ -124,6 +124,30 @@ test("screen readers are told how the growth stands", async () => {
   assert.equal(await state.textContent(), "grown");
 });
 
+test("the picture is told in words, and keys go from organ to organ along the plant", async () => {
+  const words = page.locator("#picture-words");
+  await page.waitForFunction(() => /^1 plant, [\d.]+ m tall, 3,280 internodes, step 8 of 8$/.test(document.querySelector("#picture-words").textContent));
+  await page.locator(".viewport canvas").focus();
+  const places = [];
+  for (let i = 0; i < 3; i++) {
+    await page.keyboard.press("n");
+    await page.waitForFunction((wanted) => document.querySelector("#picture-words").textContent.includes(`organ ${wanted} of 3,280`), i + 1);
+    places.push(await page.locator(".pick-head code").textContent());
+  }
+  assert.equal(places[0], `Internode(7,${(1.02 ** 7).toPrecision(6)})`);
+  assert.match(await words.textContent(), /, born in step \d/);
+  assert.equal(await page.evaluate(() => document.activeElement.tagName), "CANVAS");
+  await page.keyboard.press("b");
+  await page.waitForFunction(() => document.querySelector("#picture-words").textContent.includes("organ 2 of 3,280"));
+  assert.equal(await page.locator(".pick-head code").textContent(), places[1]);
+  await shot(page, "organ-by-key");
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("b");
+  await page.waitForFunction(() => document.querySelector("#picture-words").textContent.includes("organ 3,280 of 3,280"));
+  await page.keyboard.press("Escape");
+  await page.getByRole("tab", { name: "Settings", exact: true }).click();
+});
+
 test("a number may be written with a decimal comma", async () => {
   const ratio = page.getByRole("textbox", { name: /as a number/ }).nth(1);
   await ratio.fill("0,75");
@@ -146,6 +170,8 @@ test("another program's text is read again, and where this page has changes it a
   writeFileSync(file, tree.replace("#define ANGLE 32", "#define ANGLE 55"));
   const question = page.locator(".dispute");
   await question.waitFor();
+  assert.deepEqual(await question.locator("del code").allTextContents(), ["/* A tree for tests", "#define ANGLE 55      /* angle of branches; 5..80; degrees */"]);
+  assert.deepEqual(await question.locator("ins code").allTextContents(), ["/* mine */ /* A tree for tests", "#define ANGLE 21      /* angle of branches; 5..80; degrees */"]);
   await shot(page, "dispute");
   await page.keyboard.press("Control+s");
   await page.locator(".message.error").waitFor();
@@ -343,6 +369,20 @@ test("a link says what it needs, and opens in a studio at another port, by paste
   await second.waitForFunction(() => document.title.startsWith("tree.l"));
   await second.context().close();
   await other.kill();
+});
+
+test("a plant that becomes very large asks before, and stops if it is told so", async () => {
+  const doubling = "lsystem: 1\nderivation length: 30\naxiom: A\nA --> AA\nendlsystem\n";
+  writeFileSync(join(place.folder, "doubling.l"), doubling);
+  await openFromGallery("plants/doubling.l");
+  await page.waitForSelector(".status[data-state=asks]");
+  const question = page.getByRole("alert").filter({ hasText: "very large" });
+  assert.match(await question.textContent(), /step 23 may have 8,388,608 modules\./);
+  await shot(page, "asks");
+  await question.getByRole("button", { name: "Stop here" }).click();
+  await page.waitForSelector(".status[data-state=stopped]");
+  assert.equal(await question.isVisible(), false);
+  assert.match(await page.locator(".status .counts").textContent(), /^4,194,304 modules/);
 });
 
 test("a wrong key says so, and the right address is taken", async () => {

@@ -87,6 +87,14 @@ await page.keyboard.press("Enter");
 await page.evaluate(() => document.activeElement.blur());
 await page.waitForFunction(() => document.querySelector(".viewport canvas").dataset.limbs === "tubes");
 await save("studio-view.png");
+await open("honda");
+await page.getByRole("button", { name: /^Pin this growth: / }).click();
+await answered(page);
+await page.getByRole("tab", { name: "Settings" }).click();
+await page.locator("#setting-A2").fill("-85");
+await page.evaluate(() => document.activeElement.blur());
+await save("studio-compare.png");
+await page.getByRole("button", { name: /pin/i, pressed: true }).first().click();
 // The forgotten tree of docs/fitting.md.
 const espalier = (...words) => execFileSync(programPath, words, { cwd: place.base, stdio: "pipe" });
 const truth = { R1: 0.86, R2: 0.74, A1: 17, A2: -48, DIVERGENCE: 120 };

@@ -158,6 +158,34 @@ test("unsaved work is found again", async () => {
   assert.match(await text(), /\/\* mine \*\//);
 });
 
+test("what is saved is written into the file that was chosen once", async () => {
+  const own = await openSite(address);
+  await told(own);
+  await grown(own);
+  // A dialog of the system answers no test.
+  await own.evaluate(() => {
+    window.disk = {};
+    window.asked = [];
+    window.showSaveFilePicker = async ({ suggestedName }) => {
+      window.asked.push(suggestedName);
+      const write = async (bytes) => (window.disk[suggestedName] = new TextDecoder().decode(bytes));
+      return { createWritable: async () => ({ write, close: async () => undefined }) };
+    };
+  });
+  await own.keyboard.press("Control+s");
+  await own.getByRole("dialog", { name: "Save as" }).getByRole("button", { name: "Save" }).click();
+  await own.waitForFunction(() => Object.keys(window.disk).length === 1);
+  await own.locator(".cm-content").click();
+  await own.keyboard.press("Control+Home");
+  await own.keyboard.type("# mine ");
+  await grown(own);
+  await own.keyboard.press("Control+s");
+  await own.waitForFunction(() => Object.values(window.disk).some((content) => content.startsWith("# mine ")));
+  assert.equal(await own.evaluate(() => window.asked.length), 1);
+  assert.deepEqual(own.problems, []);
+  await own.context().close();
+});
+
 test("a step that takes too long is stopped, and the text stays", async () => {
   const slow =
     "lsystem: 1\nStartEach: { i = 0; while (i < 90000) { j = 0; while (j < 90000000) { j = j + 1; } i = i + 1; } }\nderivation length: 40\naxiom: F(1) A\n" +

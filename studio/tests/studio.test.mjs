@@ -171,14 +171,14 @@ test("another seed is another plant, and undo brings the first one back", async 
   await page.keyboard.press("Control+z");
   await page.waitForFunction((old) => document.querySelector("#setting-seed").value === old, seed);
   await grown();
-  await page.locator(".pick-head button").evaluateAll((buttons) => buttons.forEach((button) => button.click()));
+  await page.locator(".pick-head [aria-label='Forget this organ']").evaluateAll((buttons) => buttons.forEach((button) => button.click()));
   await shot(page, "seed");
 });
 
 test("charts follow the statistics, and a pinned growth stays beside a later one", async () => {
   await page.getByRole("tab", { name: "Charts" }).click();
   await page.waitForSelector(".chart canvas");
-  await page.getByRole("button", { name: "Pin this growth" }).click();
+  await page.getByRole("button", { name: "Pin this growth", exact: true }).click();
   await page.getByRole("tab", { name: "Settings" }).click();
   await page.locator("#setting-RATIO").focus();
   for (let i = 0; i < 20; i++) await page.keyboard.press("ArrowLeft");

@@ -1,4 +1,6 @@
 // The table of siblings: strings share it, steps add to it, and rows that nobody needs are dropped.
+#include "espalier/base/stop.h"
+
 #include "catch.h"
 #include "lsystem/model_builder.h"
 
@@ -106,4 +108,13 @@ TEST_CASE("a large table of siblings is copied when it is four times as long, no
     const SiblingTable long_one = table.grown(3 * rows);
     CHECK(&long_one[0] == &table[0]);
     CHECK(&long_one.grown(1)[0] != &table[0]);
+}
+
+TEST_CASE("room for many siblings is made until it is stopped", "[lsystem]") {
+    const SiblingTable few = SiblingTable().grown(3);
+    StopRequest request;
+    const StopRequest::Scope scope(&request);
+    CHECK(few.grown(1'000'000).size() == 1'000'003);
+    request.ask();
+    CHECK_THROWS_AS(few.grown(1'000'000), Stopped);
 }

@@ -37,6 +37,7 @@ public:
         note([&] { add(rows); });
     }
     void printed(std::uint32_t, std::string) override {}
+    void asks(std::uint32_t, std::size_t) override {}
     void stopped(std::uint32_t) override {
         note([&] { failed_ = true; });
     }

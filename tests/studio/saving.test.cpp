@@ -157,9 +157,11 @@ TEST_CASE("a text that was changed here and by another program is saved only onc
     CHECK(refused["error"] == "another program has written part.h: say first which text is to stay");
     CHECK(text_of(studio.part) == "#define LENGTH 40\n");
     CHECK(studio.part_told()["disputed"] == true);
+    CHECK(studio.part_told()["disk"] == "#define LENGTH 40\n");
     SECTION("that of the page") {
         studio.ask({{"do", "settle"}, {"path", studio.part.string()}, {"take", "mine"}});
         CHECK(studio.part_told()["disputed"] == false);
+        CHECK_FALSE(studio.part_told().contains("disk"));
         CHECK_FALSE(studio.ask({{"do", "save"}}).contains("error"));
         CHECK(text_of(studio.part) == "#define LENGTH 4\n");
     }

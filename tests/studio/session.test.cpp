@@ -355,6 +355,49 @@ TEST_CASE("growth can be stopped in the midst of a step, and goes on when it is 
     }
 }
 
+TEST_CASE("a growth asks before it passes five million modules, and once for a document", "[studio][stop]") {
+    OpenStudio studio("#define STEPS 23\nlsystem: 1\nderivation length: STEPS\naxiom: A\nA --> AA\nendlsystem\n");
+    ListeningPage& page = studio.begin();
+    const auto is = [&](const std::string& state) {
+        const Json growth = page.last("growth");
+        return !growth.is_null() && growth["state"] == state;
+    };
+    studio.wait([&] { return is("asks"); });
+    CHECK(page.last("growth")["step"] == 22);
+    CHECK(page.last("growth")["modules"] == 1 << 22);
+    CHECK(page.last("growth")["reason"] == "step 23 may have 8388608 modules");
+    SECTION("told to go on, it does, and a later growth need not ask") {
+        studio.ask({{"do", "go-on"}});
+        studio.wait([&] { return is("done"); });
+        CHECK(page.last("growth")["modules"] == 1 << 23);
+        CHECK(studio.ask({{"do", "go-on"}}).contains("error"));
+        page.texts.clear();
+        studio.change({{"seed", 5}});
+        studio.wait_until_grown();
+        CHECK(std::none_of(page.texts.begin(), page.texts.end(),
+                           [](const Json& text) { return text.value("state", "") == "asks"; }));
+    }
+    SECTION("told to stop, it stops, and to grow on is an answer, too") {
+        studio.ask({{"do", "stop"}});
+        CHECK(is("stopped"));
+        CHECK(page.last("growth")["reason"] == "");
+        studio.ask({{"do", "grow"}, {"to", 23}});
+        studio.wait([&] { return page.last("growth")["step"] == 23; });
+    }
+    SECTION("a change ends it") {
+        studio.change({{"settings", {{"STEPS", "3"}}}});
+        studio.wait_until_grown();
+        CHECK(page.last("growth")["modules"] == 8);
+    }
+}
+
+TEST_CASE("a plant that stands there at once is not taken for one that multiplies", "[studio][stop]") {
+    OpenStudio studio("lsystem: 1\nderivation length: 3\naxiom: A\nA --> " + std::string(3000, 'F') + "\nendlsystem\n");
+    ListeningPage& page = studio.begin();
+    studio.wait([&] { return page.last("growth").is_object() && page.last("growth")["state"] != "growing"; });
+    CHECK(page.last("growth")["state"] == "done");
+}
+
 TEST_CASE("a change ends the endless growth before it, and so does the end of the studio", "[studio][stop]") {
     const auto begin = std::chrono::steady_clock::now();
     {

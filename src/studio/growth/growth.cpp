@@ -104,7 +104,10 @@ struct Growth::Work {
     int drawn = -1;                            ///< up to it all steps have been drawn in order, with their statistics
     int told = -1;                             ///< the last step that the listener knows
     bool is_ended = false;                     ///< the model has stopped
-    bool told_stop = false;
+    bool told_stop = false;                    ///< or that it asks
+    std::size_t modules = 0;                   ///< of the last step that was derived here
+    double factor = 0;                         ///< by which they multiplied in it; 0: not known
+    std::size_t expected = 0;                  ///< of the next step, as far as two steps tell
     bool is_deriving = false;
     bool is_whole = true;        ///< the world is not in the midst of a step
     bool draws_in_order = true;  ///< until it was told to stop while it did
@@ -119,6 +122,7 @@ Growth::Growth(GrowthOrder order, GrowthListener& listener, Workers& workers)
       }),
       steps_(std::make_shared<KeptSteps>(order_.number, order_.scratch / fmt::format("growth-{}", order_.number))),
       version_(order_.version),
+      may_be_large_(order_.may_be_large),
       wanted_(order_.looked_at),
       running_(workers.run(*this)) {}
 
@@ -159,6 +163,12 @@ bool Growth::extend(int last_step, std::uint64_t version) {
 void Growth::stop() {
     stopped_ = true;
     request_.ask(patience_with_steps);
+}
+
+void Growth::go_on() {
+    may_be_large_ = true;
+    const std::lock_guard lock(mutex_);
+    changed_.notify_all();
 }
 
 std::vector<std::string> Growth::column_names() const {
@@ -289,7 +299,12 @@ Growth::Then Growth::grow(Work& work) {
         return Then::goes_on;
     }
     const bool is_over = work.is_ended || work.derived >= last_step_;
-    if (!is_over && !std::exchange(work.told_stop, true)) listener_.stopped(number());
+    if (is_over || std::exchange(work.told_stop, true)) return Then::waits;
+    if (stopped_) {
+        listener_.stopped(number());
+    } else {
+        listener_.asks(number(), work.expected);
+    }
     return Then::waits;
 }
 
@@ -315,7 +330,11 @@ void Growth::drop(Work& work) {
 }
 
 bool Growth::may_grow(const Work& work) const {
-    return !stopped_ && !work.is_ended && work.derived < last_step_;
+    return !stopped_ && !work.is_ended && work.derived < last_step_ && !must_ask(work);
+}
+
+bool Growth::must_ask(const Work& work) const {
+    return !may_be_large_ && work.expected > most_unasked;
 }
 
 // One piece of work; false if there is none.
@@ -342,6 +361,10 @@ void Growth::note_derived(Work& work) {
     work.at = work.derived = work.world.steps_done();
     ++work.own_steps;
     work.is_ended = work.world.stopped();
+    const std::size_t before = std::exchange(work.modules, work.world.modules());
+    const double factor = before > 0 ? double(work.modules) / double(before) : 0;
+    // An axiom that becomes a whole plant in one step does not go on like that.
+    work.expected = static_cast<std::size_t>(std::min(factor, std::exchange(work.factor, factor)) * double(work.modules));
     work.told_stop = false;
     work.draws_in_order = true;
     if (!may_extend_) last_step_ = work.world.last_step();  // models may change it

@@ -42,7 +42,11 @@ struct GrowthOrder {
     /// Pages do not ask to see it grow up to this step: where drawing can wait, what pages look at is drawn first.
     int unseen_to = 0;
     std::set<int> looked_at = {};  ///< besides the last step
+    bool may_be_large = false;     ///< it need not ask before it passes most_unasked
 };
+
+/// Modules that a growth may have before it asks whether to go on.
+inline constexpr std::size_t most_unasked = 5'000'000;
 
 class Growth final : public PlantSource, private PiecewiseWork {
 public:
@@ -78,6 +82,7 @@ public:
     void cancel() override;
     bool has_ended() const override { return running_.has_ended(); }
     void stop() override;
+    void go_on() override;
     /// False if what grows depends on how far it is to grow: then it must grow anew.
     bool extend(int last_step, std::uint64_t version) override;
     void pause_drawing(bool pauses) override;
@@ -96,6 +101,7 @@ private:
     void forget_stop();
     bool advance(Work& work);
     bool may_grow(const Work& work) const;
+    bool must_ask(const Work& work) const;
     void note_derived(Work& work);
     void step(Work& work);
     void derive(Work& work);
@@ -118,7 +124,7 @@ private:
     std::uint64_t version_ = 0;
     std::atomic<int> last_step_ = -1;
     std::atomic<bool> may_extend_ = false;
-    std::atomic<bool> cancelled_ = false, stopped_ = false, rests_ = false;
+    std::atomic<bool> cancelled_ = false, stopped_ = false, rests_ = false, may_be_large_ = false;
     StopRequest request_;  ///< to what its thread does at this moment
     mutable std::mutex mutex_;
     std::condition_variable changed_;

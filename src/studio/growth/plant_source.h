@@ -62,6 +62,8 @@ public:
     virtual void printed(std::uint32_t growth, std::string text) = 0;
     /// It was told to stop before its end, and no more steps come.
     virtual void stopped(std::uint32_t growth) = 0;
+    /// The next step may have so many modules: no more steps come until it is told to go on.
+    virtual void asks(std::uint32_t growth, std::size_t modules) = 0;
     /// It could not be read, or did not go on. A growth that is told to end says nothing.
     virtual void failed(std::uint32_t growth, std::vector<Diagnostic> why) = 0;
 };
@@ -101,6 +103,8 @@ public:
     virtual bool extend(int /*last_step*/, std::uint64_t /*version*/) { return false; }
     /// Steps that no page looks at are not drawn for the time being: another growth is to begin.
     virtual void pause_drawing(bool /*pauses*/) {}
+    /// A growth that asks may be as large as it will.
+    virtual void go_on() {}
     /// No more steps, but it still answers questions.
     virtual void stop() {}
     /// It ends after the step at hand.

@@ -78,6 +78,8 @@ std::vector<ShownText> shown_texts(const DocumentTexts& texts, const DocumentSta
         text.content = content_of(file, text_of(file, state));
         text.changed = state.unsaved.contains(file) && text_on_disk(file) != state.unsaved.at(file);
         text.disputed = disputed.contains(file);
+        if (text.disputed && !is_palette(file)) text.disk = text_on_disk(file);
+        if (text.disk && !is_text(*text.disk)) text.disk.reset();
         list.insert(text.role == "main" ? list.begin() : list.end(), std::move(text));
     }
     return list;

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct ShownText {
     static constexpr TypeName type{"TextFile", "a text of the document"};
     std::string path, role, language, content;
     bool changed = false, disputed = false;
+    std::optional<std::string> disk = {};
 
     template <class Self, class Fields>
     static void declare(Self& self, const Fields& field) {
@@ -31,6 +33,7 @@ struct ShownText {
         field("changed", self.changed, "it has changes that are not saved");
         field("disputed", self.disputed,
               "another program has written the file meanwhile: it is not saved before `settle`");
+        field("disk", self.disk, "what the file then holds, if it is a text");
     }
 };
 

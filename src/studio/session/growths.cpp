@@ -70,6 +70,7 @@ GrowthOrder Growths::next_order() {
     }
     order.permission = permission_of(now.opened.path, options_.library_folder);
     order.memory = options_.memory;
+    order.may_be_large = may_be_large_ == now.opened.path;
     order.unseen_to = follow_from_;
     for (const auto& viewer : pages_.all()) {
         if (viewer->step) order.looked_at.insert(*viewer->step);
@@ -85,16 +86,35 @@ void Growths::grow_to(int step) {
     const bool goes_on = is_present && step > known && shown_->source().extend(step, document_.version() + 1);
     document_.set_steps(step, known, goes_on);
     if (!goes_on) return;
+    if (has_asked_) allow_more();
     progress_.newest.last_step = step;
-    progress_.state = "growing";
-    is_busy_ = true;
     follow_from_ = known + 1;
+    note_going();
+}
+
+void Growths::note_going() {
+    progress_.state = "growing";
+    progress_.reason.clear();
+    is_busy_ = true;
     broadcast_progress();
+}
+
+void Growths::go_on() {
+    if (progress_.state != "asks") throw UserError("no growth asks whether to go on");
+    allow_more();
+    note_going();
+}
+
+void Growths::allow_more() {
+    has_asked_ = false;
+    may_be_large_ = shown_->source().opened().path;
+    shown_->source().go_on();
 }
 
 void Growths::stop() {
     if (shown_) shown_->source().stop();
     if (next_) next_->stop();
+    if (progress_.state == "asks") note_stopped(shown_->number());
 }
 
 const ShownGrowth& Growths::shown(std::uint32_t number) const {
@@ -125,6 +145,7 @@ void Growths::note_started(std::uint32_t growth, GrowthStart start) {
     printed_.clear();
     statistics_.clear();
     progress_ = {"growing", "", {}};
+    has_asked_ = false;
     progress_.newest.step = -1;
     progress_.newest.last_step = shown_->start().last_step;
     document_.note_started(shown_->source().opened(), shown_->start());
@@ -182,12 +203,24 @@ void Growths::note_printed(std::uint32_t growth, const std::string& text) {
 // Pages that wait for a later step get the last there is.
 void Growths::note_stopped(std::uint32_t growth) {
     if (!is_shown(growth)) return;
-    progress_.state = "stopped";
+    rest("stopped", "");
+}
+
+void Growths::note_asking(std::uint32_t growth, std::size_t modules) {
+    if (!is_shown(growth)) return;
+    has_asked_ = true;
+    rest("asks", fmt::format("step {} may have {} modules", newest_step() + 1, modules));
+}
+
+// It grows no further for the time being.
+void Growths::rest(const char* state, const std::string& reason) {
+    progress_.state = state;
+    progress_.reason = reason;
     is_busy_ = false;
     broadcast_progress();
     broadcast_statistics();
     for (const auto& viewer : pages_.all()) show(*viewer);
-    note_opened(growth);
+    note_opened(shown_->number());
     begin_next();
 }
 

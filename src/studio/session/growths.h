@@ -37,6 +37,8 @@ public:
     void grow_to(int step);
     /// After the step at hand.
     void stop();
+    /// A growth that asks, and later ones of this document, may be large. Throws UserError if none asks.
+    void go_on();
 
     /// The newest step that can be shown.
     int newest_step() const { return progress_.newest.step; }
@@ -55,12 +57,16 @@ private:
     void note_drawn(std::uint32_t growth, int step, const std::string& statistics) override;
     void note_printed(std::uint32_t growth, const std::string& text) override;
     void note_stopped(std::uint32_t growth) override;
+    void note_asking(std::uint32_t growth, std::size_t modules) override;
     void note_failed(std::uint32_t growth, const std::vector<Diagnostic>& why) override;
 
     void begin_next();
     GrowthOrder next_order();
     bool is_shown(std::uint32_t growth) const { return shown_ && shown_->number() == growth; }
     void show_step(const GrownStep& step);
+    void note_going();
+    void allow_more();
+    void rest(const char* state, const std::string& reason);
     void broadcast_progress() const { pages_.broadcast(shown_->progress_message(progress_)); }
     void note_opened(std::uint32_t growth);
     void broadcast_statistics();
@@ -81,10 +87,12 @@ private:
     RetiredGrowths retired_;
     GrowthProgress progress_;
     Pace pace_;
-    int follow_from_ = 0;           ///< pages that look at the last step see every one from here on
-    bool is_opening_ = false;       ///< no growth of the document has shown anything yet
-    std::filesystem::path opened_;  ///< the last document of which one has
-    bool is_busy_ = false;          ///< the newest growth has not come to its end
+    int follow_from_ = 0;                 ///< pages that look at the last step see every one from here on
+    bool is_opening_ = false;             ///< no growth of the document has shown anything yet
+    std::filesystem::path opened_;        ///< the last document of which one has
+    std::filesystem::path may_be_large_;  ///< the document whose growths need not ask
+    bool has_asked_ = false;              ///< the present growth has, and was not told to go on
+    bool is_busy_ = false;                ///< the newest growth has not come to its end
 };
 
 }  // namespace espalier::studio

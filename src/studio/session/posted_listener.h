@@ -23,6 +23,7 @@ public:
     virtual void note_drawn(std::uint32_t growth, int step, const std::string& statistics) = 0;
     virtual void note_printed(std::uint32_t growth, const std::string& text) = 0;
     virtual void note_stopped(std::uint32_t growth) = 0;
+    virtual void note_asking(std::uint32_t growth, std::size_t modules) = 0;
     virtual void note_failed(std::uint32_t growth, const std::vector<Diagnostic>& why) = 0;
 };
 
@@ -45,6 +46,9 @@ public:
     }
     void stopped(std::uint32_t growth) override {
         post_([this, growth] { notes_.note_stopped(growth); });
+    }
+    void asks(std::uint32_t growth, std::size_t modules) override {
+        post_([this, growth, modules] { notes_.note_asking(growth, modules); });
     }
     void failed(std::uint32_t growth, std::vector<Diagnostic> why) override {
         post_([this, growth, why = std::move(why)] { notes_.note_failed(growth, why); });

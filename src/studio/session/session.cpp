@@ -60,6 +60,7 @@ Post Session::guarded(Post post) {
 void Session::leave(Page& page) {
     parts_.pages.leave(page);
     parts_.jobs.forget(page);
+    parts_.sweeps.forget(page);
 }
 
 void Session::receive(Page& page, const std::string& text) {

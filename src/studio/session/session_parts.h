@@ -9,6 +9,7 @@
 #include "studio/session/jobs.h"
 #include "studio/session/open_document.h"
 #include "studio/session/pages.h"
+#include "studio/session/sweeps.h"
 
 namespace espalier::studio {
 
@@ -19,7 +20,8 @@ struct SessionParts {
           disk(options, pages, document),
           growths(options, pages, document, disk, files, workers, post),
           jobs(pages, files, workers, post),
-          fits(options, pages, document, workers, post) {}
+          fits(options, pages, document, workers, post),
+          sweeps(pages, workers, post) {}
 
     const StudioOptions& options;
     HandedFiles files;
@@ -30,6 +32,7 @@ struct SessionParts {
     Growths growths;
     Jobs jobs;
     Fits fits;
+    Sweeps sweeps;
 };
 
 }  // namespace espalier::studio

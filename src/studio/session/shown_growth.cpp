@@ -28,15 +28,16 @@ struct GrowthState {
     static void declare(Self& self, const Fields& field) {
         field("growth", self.growth, "its number: another number is another growth");
         field("version", self.version, "version of the document that grows");
-        field("state", self.state, "`stopped` by a request, `failed` with a reason",
-              one_of("growing done stopped failed"));
+        field("state", self.state,
+              "`asks` before it becomes very large, `stopped` by a request, `failed` with a reason",
+              one_of("growing asks done stopped failed"));
         field("step", self.step, "newest step; -1: none so far", at_least(-1));
         field("last", self.last, "step to which it grows");
         field("modules", self.modules, "of the newest step");
         field("internodes", self.internodes, "of the newest step");
         field("derived", self.derived, "steps that were derived for it; the others are those of an earlier growth");
         field("seconds", self.seconds, "from its beginning to the newest step");
-        field("reason", self.reason, "why it failed");
+        field("reason", self.reason, "why it failed, or what it asks");
         field("plants", self.plants, "names of its plants");
     }
 };

@@ -316,6 +316,19 @@ export function triangleCount(packet: Packet): number {
   return packet.indices.length / 3;
 }
 
+/** The modules that are drawn, each once, in the order of the string: along each branch. */
+export function drawnModules(packet: Packet): Uint32Array {
+  const lists = [packet.modules, ...packet.groups.map(({ modules }) => modules)];
+  const all = new Uint32Array(lists.reduce((sum, { length }) => sum + length, packet.internodeCount));
+  for (let i = 0; i < packet.internodeCount; i++) all[i] = at(packet.internodes, i * 6 + 5);
+  let end = packet.internodeCount;
+  for (const list of lists) {
+    all.set(list, end);
+    end += list.length;
+  }
+  return all.sort().filter((module, i) => i === 0 || module !== all[i - 1]);
+}
+
 /** The box of everything in a packet, or null if it is empty. `boxOf` knows the boxes of shapes. */
 export function boundsOf(packet: Packet, boxOf: (shape: number) => Box): Box | null {
   const lower: [number, number, number] = [Infinity, Infinity, Infinity];

@@ -10,6 +10,7 @@ import {
 } from "three";
 import { at } from "../lists.js";
 import { Backdrop } from "./backdrop.js";
+import { BesideView, leftOf } from "./beside.js";
 import { OrbitCamera } from "./camera.js";
 import { themes, type Theme } from "./colours.js";
 import { FieldView, type FieldLook } from "./fields.js";
@@ -23,7 +24,7 @@ import { Pictures, type PictureSource } from "./pictures.js";
 import { markTable, Pass, shadowDepth, sharedUniforms, valueTable } from "./shading.js";
 import { Shapes } from "./shapes.js";
 import { Triangles } from "./triangles.js";
-import { around, sameBox, sameVector, vectorOf, type Box, type Vector } from "./vectors.js";
+import { around, axes, sameBox, sameVector, vectorOf, type Box, type Vector } from "./vectors.js";
 
 const shadowSize = 1024;
 const pickReach = 4; // pixels around the pointer
@@ -61,11 +62,14 @@ export class PlantScene {
   private readonly shapes: Shapes;
   private readonly fieldView: FieldView;
   private readonly measured: MeasuredView;
+  private readonly beside: BesideView;
   private readonly shadowCamera = new OrthographicCamera(-1, 1, 1, -1, 0, 1);
   private readonly shadowTarget = new WebGLRenderTarget(shadowSize, shadowSize, { depthTexture: shadowDepth(shadowSize) });
   private readonly pickTarget = new WebGLRenderTarget(2 * pickReach + 1, 2 * pickReach + 1);
   private readonly software = drawsInSoftware();
   private bounds: Box | null = null;
+  /** How far the pinned plant stands away; null: where it grew. */
+  private besideBy: Vector | null = null;
   private shadowStale = true;
   private requested = false;
   private restTimer = 0;
@@ -92,6 +96,7 @@ export class PlantScene {
     this.shapes = new Shapes(this.uniforms, this.pictures, this.scene);
     this.fieldView = new FieldView(this.uniforms, this.scene);
     this.measured = new MeasuredView(this.scene);
+    this.beside = new BesideView(this.uniforms, this.pictures, this.scene);
     this.scene.matrixWorldAutoUpdate = false;
     this.scene.add(
       this.backdrop.mesh,
@@ -154,8 +159,13 @@ export class PlantScene {
     this.light.apply(this.shownTheme);
     this.backdrop.use(this.shownTheme, this.light.shownAuthor.background, this.light.shownSky);
     this.shadowStale = true;
-    if (this.bounds) this.placeGround(this.bounds.lower, this.bounds.upper);
+    this.placeGround();
     this.request();
+  }
+
+  /** The box of the plants; null: nothing is shown. */
+  get box(): Box | null {
+    return this.bounds;
   }
 
   get gridCell(): number {
@@ -182,7 +192,7 @@ export class PlantScene {
     this.limbs.clear();
     this.bounds = boundsOf(packet, (shape) => this.shapes.boxOf(shape));
     this.shadowStale = true;
-    if (this.bounds) this.placeGround(this.bounds.lower, this.bounds.upper);
+    this.placeGround();
     this.followGrowth(packet);
     this.request();
   }
@@ -217,11 +227,48 @@ export class PlantScene {
   }
 
   fit(): void {
-    if (this.bounds) this.orbit.fit(this.bounds.lower, this.bounds.upper);
+    const box = this.wholeBox;
+    if (box) this.orbit.fit(box.lower, box.upper);
   }
 
   home(): void {
-    if (this.bounds) this.orbit.home(this.bounds.lower, this.bounds.upper, this.isFlat(), this.light.author.towardsEye);
+    const box = this.wholeBox;
+    if (box) this.orbit.home(box.lower, box.upper, this.isFlat(), this.light.author.towardsEye);
+  }
+
+  /** Another growth has been pinned, whose plants wear these shapes. */
+  beginBeside(shapes: Shape[]): void {
+    this.beside.begin(shapes);
+    this.besideBy = null;
+    this.changeBeside();
+  }
+
+  /** Draws the plant of a pinned growth left of the one that is shown, or on it, in grey; null: not at all. */
+  showBeside(packet: Packet | null, apart: boolean): void {
+    const box = packet && this.beside.boxOf(packet);
+    if (!packet || !box || !this.bounds) this.beside.hide();
+    else if (!apart) this.beside.show(packet, [0, 0, 0]);
+    else {
+      // It stays where it stands until the plants would touch.
+      const { azimuth } = this.orbit.state;
+      const needed = leftOf(this.bounds, box, azimuth);
+      const isFirst = this.besideBy === null;
+      if (!this.besideBy || axes.some((k) => Math.abs(needed[k]) > Math.abs(this.besideBy?.[k] ?? 0))) this.besideBy = needed;
+      this.beside.show(packet, this.besideBy);
+      if (isFirst) this.fit();
+    }
+    this.changeBeside();
+  }
+
+  colourBesideBy(by: Column | "order" | "grey" | null): void {
+    this.beside.colourBy(by);
+    this.request();
+  }
+
+  private changeBeside(): void {
+    this.shadowStale = true;
+    this.placeGround();
+    this.request();
   }
 
   /** Colours modules by a column, by the order of branching, or as the model does. */
@@ -410,7 +457,15 @@ export class PlantScene {
     return highest;
   }
 
-  private placeGround(lower: Vector, upper: Vector): void {
+  /** The box of all plants that stand in the picture. */
+  private get wholeBox(): Box | null {
+    return this.bounds && this.beside.box ? around(this.bounds, this.beside.box) : this.bounds;
+  }
+
+  private placeGround(): void {
+    const box = this.wholeBox;
+    if (!box) return;
+    const { lower, upper } = box;
     const centre = new Vector3((lower[0] + upper[0]) / 2, (lower[1] + upper[1]) / 2, (lower[2] + upper[2]) / 2);
     const radius = Math.max(0.5 * Math.hypot(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]), 1e-4);
     this.ground.place(centre, radius);
@@ -450,6 +505,7 @@ export class PlantScene {
     this.uniforms.pass.value = pass;
     this.setEye(pass === Pass.shadow);
     this.internodes.choose(pass === Pass.shadow ? null : this.orbit.camera.position, this.uniforms.pixel.value);
+    this.beside.prepare(pass !== Pass.identity, pass === Pass.shadow ? null : this.orbit.camera.position, this.uniforms.pixel.value);
     if (this.limbs.mesh.visible) this.internodes.thick.visible = this.internodes.thin.visible = false;
     this.labels.mesh.visible = picture && this.labelsShown && !this.labels.empty;
     this.measured.place(picture, this.bounds);

@@ -155,7 +155,7 @@ vec3 colourOf(uint module, vec3 own, float order) {
   } else if (colouring == 2) {
     result = texture(colourMap, vec2(clamp(order / max(range.y, 1.0), 0.0, 1.0) * 0.998 + 0.001, 0.5)).rgb;
     result *= result;
-  }
+  } else if (colouring == 3) result = vec3(0.25);
   if (marked) {
     uint mark = texelFetch(marks, place(int(module)), 0).r;
     if (mark == 1u) result = markColour * 1.4;

@@ -8,7 +8,7 @@ import {
   RGIntegerFormat,
   UnsignedIntType,
   type IUniform,
-  type Scene,
+  type Object3D,
   type Texture,
 } from "three";
 import { at } from "../lists.js";
@@ -196,7 +196,7 @@ export class Shapes {
   constructor(
     private readonly shared: SharedUniforms,
     private readonly pictures: Pictures,
-    private readonly scene: Scene,
+    private readonly scene: Object3D,
   ) {
     for (const shape of [disc(0), sphere(), disc(0.47)]) this.known.set(shape.shape, cornersOf(shape));
   }
@@ -225,12 +225,16 @@ export class Shapes {
     }
   }
 
-  show(packet: Packet): void {
+  clear(): void {
     for (const group of this.groups) {
       this.scene.remove(group.mesh);
       group.dispose();
     }
     this.groups = [];
+  }
+
+  show(packet: Packet): void {
+    this.clear();
     for (const group of packet.groups) {
       const corners = this.known.get(group.shape);
       if (!corners || group.count === 0 || corners.count === 0) continue;

@@ -2,6 +2,7 @@
 import type { Transport, TransportEvents } from "../transport.js";
 import { keepFiles, keptFiles } from "./kept.js";
 import type { Begin, FromWorker, KeptFile, ToWorker } from "./messages.js";
+import { saveOwnFiles } from "./own-files.js";
 import { part } from "./parts.js";
 
 export { hasOwnSession } from "./parts.js";
@@ -126,7 +127,7 @@ export class WorkerTransport implements Transport {
     } else if (data.kind === "heard") {
       if (this.unheard.shift() === "save") this.saves--;
     } else if (data.kind === "kept") {
-      if (this.saves > 0) download(data.files);
+      if (this.saves > 0) void saveOwnFiles(data.files);
       keepFiles(data.files);
     } else if (data.kind === "file") {
       this.hand(data.number, data.bytes);
@@ -161,17 +162,5 @@ export class WorkerTransport implements Transport {
     this.ready = false;
     for (const resolve of this.files.values()) resolve(null);
     this.events.closed(refused, next !== null);
-  }
-}
-
-/** What was saved goes to the user's own files, too: those of the session belong to the browser. */
-function download(files: KeptFile[]): void {
-  for (const [path, bytes] of files) {
-    if (!path.startsWith("/home/") || !bytes) continue;
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(new Blob([bytes]));
-    link.download = path.slice(path.lastIndexOf("/") + 1);
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
   }
 }

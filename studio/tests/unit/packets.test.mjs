@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { load } from "./load.mjs";
 
-const { readMessage } = await load("view/packets.ts");
+const { drawnModules, readMessage } = await load("view/packets.ts");
 
 /** A message of numbers: [kind, value] with the kinds u, i, f for four bytes, b for one and t for text. */
 function message(letters, parts) {
@@ -47,4 +47,15 @@ test("a message that is cut anywhere, or begins with other letters, is refused",
   const whole = message("ESC1", column);
   for (let length = 4; length < whole.byteLength; length++) assert.throws(() => readMessage(whole.slice(0, length)));
   assert.throws(() => readMessage(message("ESX9", [])), /ESX9/);
+});
+
+test("modules that are drawn are listed once, along the string", () => {
+  const internode = (module) => [0, 0, 0, 0, 0, module];
+  const packet = {
+    internodeCount: 3,
+    internodes: new Uint32Array([...internode(9), ...internode(2), ...internode(2)]),
+    modules: new Uint32Array([11, 11, 11]),
+    groups: [{ modules: new Uint32Array([4, 100]) }],
+  };
+  assert.deepEqual([...drawnModules(packet)], [2, 4, 9, 11, 100]);
 });

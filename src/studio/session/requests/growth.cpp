@@ -98,6 +98,11 @@ Nothing stop(SessionParts& session, Viewer&, const Nothing&) {
     return {};
 }
 
+Nothing go_on(SessionParts& session, Viewer&, const Nothing&) {
+    session.growths.go_on();
+    return {};
+}
+
 NewestStep look(SessionParts& session, Viewer& viewer, const LookRequest& request) {
     viewer.step = request.step;
     const std::optional<std::uint32_t> held = request.held.value_or(Nullable<std::uint32_t>());
@@ -140,6 +145,8 @@ Nothing limbs(SessionParts& session, Viewer& viewer, const LimbsRequest& request
 const Registered<RequestType> grow_entry{request("grow", "grows on to a step", grow)};
 const Registered<RequestType> stop_entry{
     request("stop", "ends the growth after the step at hand, which is dropped if it is not done within 0.4 s", stop)};
+const Registered<RequestType> go_on_entry{
+    request("go-on", "goes on with a growth whose state is `asks`; later growths of the document do not ask", go_on)};
 const Registered<RequestType> look_entry{request(
     "look", "looks at a step: its packet follows, now unless the page holds it, and whenever it changes", look)};
 const Registered<RequestType> frame_entry{
