@@ -17,8 +17,7 @@ namespace espalier::formats {
 namespace {
 
 // Numbers of the standard: component types and what a buffer view is for.
-constexpr const char *instancing = "EXT_mesh_gpu_instancing", *levels = "MSFT_lod",
-                         *unlit = "KHR_materials_unlit";
+constexpr const char *instancing = "EXT_mesh_gpu_instancing", *levels = "MSFT_lod", *unlit = "KHR_materials_unlit";
 constexpr int unsigned_short = 5123, unsigned_int = 5125, float_number = 5126, vertex_buffer = 34962,
               index_buffer = 34963;
 

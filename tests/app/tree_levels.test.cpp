@@ -116,8 +116,8 @@ TEST_CASE_METHOD(Workplace, "levels of detail stand in one file, each coarser th
     for (std::size_t node = 0; node < 4; ++node) triangles.push_back(file.triangles(node));
     CHECK(told[0]["levels"] == json(triangles));
     CHECK(told[0]["triangles"] == std::accumulate(triangles.begin(), triangles.end(), std::size_t{0}));
-    CHECK(triangles[0] == json::parse(run("tree --age 14 --seed 7321 --json --quiet --output one.glb").out)["files"][0]
-                                     ["triangles"]);
+    CHECK(triangles[0] ==
+          json::parse(run("tree --age 14 --seed 7321 --json --quiet --output one.glb").out)["files"][0]["triangles"]);
     CHECK(triangles[1] == Approx(double(triangles[0]) / 4).epsilon(0.1));
     CHECK(triangles[2] == Approx(double(triangles[0]) / 16).epsilon(0.1));
     CHECK(triangles[3] == 4);

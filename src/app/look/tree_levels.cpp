@@ -46,7 +46,8 @@ LevelsFile tree_levels(const ExportJob& job, std::size_t levels) {
         options.triangles = std::max<std::size_t>(1, most / share);
         file.meshes.push_back(mesh_of(geometry, options));
         if (file.meshes.back().triangles.size() >= file.meshes[level - 1].triangles.size()) {
-            throw UserError(fmt::format("--lod {}: the tree has only {} triangles; ask for fewer levels", levels, most));
+            throw UserError(
+                fmt::format("--lod {}: the tree has only {} triangles; ask for fewer levels", levels, most));
         }
     }
     file.cards = crossed_cards(file.meshes.front(), job.run);
