@@ -151,7 +151,7 @@ entry models/herbs/shepherds-purse.l "Shepherd's purse" "Prusinkiewicz & Lindenm
 entry models/herbs/wild-carrot.l "Wild carrot" "Prusinkiewicz & Lindenmayer 1990"
 entry models/brackets/flowering-plant.l "Flowering plant" "Prusinkiewicz & Lindenmayer 1990"
 entry models/stochastic/flower-field.l "Field of flowers" "Prusinkiewicz & Lindenmayer 1990"
-entry models/organs/flower.l "A flower composed of surfaces" "Prusinkiewicz & Lindenmayer 1990, section 5.1" --view models/organs/flower.v
+entry models/organs/flower.l "A flower composed of surfaces" "Prusinkiewicz & Lindenmayer 1990, section 5.1" --view models/organs/flower.v -- --elevation 35
 entry models/phyllotaxis/rose.l "Rose" "after Prusinkiewicz & Lindenmayer 1990, section 4.1" -- --elevation 35
 entry models/phyllotaxis/zinnia.l "Zinnia" "Prusinkiewicz & Lindenmayer 1990" -- --elevation 35
 entry models/pgraph/sunflower.pgraph "Sunflower" "Lintermann & Deussen 1997"
@@ -160,7 +160,7 @@ entry models/sdl/daisy.sdl "Daisies" "after Szemla 1999"
 entry models/sdl/agave.sdl "Agave" "after Szemla 1999"
 entry models/herbs/grass.l "Grass of particles" "Reeves & Blau 1985"
 entry models/sdl/grass.sdl "Tuft of grass" "after Szemla 1999"
-entry models/sdl/straw.sdl "Straw, as printed" "Szemla 1999"
+entry models/sdl/straw.sdl "Straw, as printed" "Szemla 1999" --view models/sdl/straw.v
 entry models/signals/acropetal-flowering.l "Flowering from below" "Prusinkiewicz & Lindenmayer 1990, section 3.2"
 entry models/signals/basipetal-flowering.l "Flowering from above" "Prusinkiewicz & Lindenmayer 1990, section 3.2"
 
@@ -260,8 +260,8 @@ entry environments/drought-shallow.toml "Shallow roots in a dry season" "Couvreu
 entry environments/intercrop.toml "Maize and lupine in one soil" "Willey 1979; de Wit 1958" -- --field water:slice --no-legend
 entry environments/intercrop-maize.toml "Two maize plants" "Willey 1979; de Wit 1958" -- --field water:slice --no-legend
 entry environments/intercrop-lupine.toml "Two lupines" "Willey 1979; de Wit 1958" -- --field water:slice --no-legend
-entry environments/hydrotropism.toml "A root turns to water" "Jaffe, Takahashi & Biro 1985" -- --field water:slice --no-legend
-entry environments/chemotropism.toml "A root turns to fertiliser" "Newcombe & Rhodes 1904; Leitner et al. 2010" -- --field nitrate:slice --no-legend
+entry environments/hydrotropism.toml "A root turns to water" "Jaffe, Takahashi & Biro 1985" --set plant.0.define.WIDTH=0.004 -- --field water:slice=z-0.05 --no-legend
+entry environments/chemotropism.toml "A root turns to fertiliser" "Newcombe & Rhodes 1904; Leitner et al. 2010" --set plant.0.define.WIDTH=0.004 -- --field nitrate:slice=z-0.05 --no-legend
 entry environments/stones.toml "Roots between stones" "Massa & Gilroy 2003" -- --field stone.distance:iso=0 --no-legend --elevation 8
 entry environments/plough-pan.toml "Roots above a plough pan" "Bengough et al. 2011" -- --elevation 3 --size 540x540
 entry environments/dry-spell.toml "Roots after a dry spell" "Stasovski & Peterson 1991" -- --elevation 3 --size 540x540

@@ -46,8 +46,8 @@ for soil in plough-pan plough-pan-loose plough-pan-summer; do
 done
 grow dry-spell environments/dry-spell.toml
 grow dry-spell-wet environments/dry-spell.toml --set environment.head.file=soils/wet.csv
-grow hydrotropism environments/hydrotropism.toml
-grow chemotropism environments/chemotropism.toml
+grow hydrotropism environments/hydrotropism.toml --set plant.0.define.WIDTH=0.004
+grow chemotropism environments/chemotropism.toml --set plant.0.define.WIDTH=0.004
 grow stones environments/stones.toml
 grow stones-numb environments/stones.toml --set plant.0.define.TOUCH=0
 for roots in stones stones-numb; do
@@ -77,8 +77,8 @@ for plant in drought-deep drought-shallow; do
     render "$plant.png" "$plant" --size 150x480 --sheet 2x1 --step 20:60:40 --field water:slice --azimuth 15 --elevation 5 --time
 done
 render intercrop.png intercrop --size 240x480 --sheet 2x1 --step 20:40:20 --field water:slice --azimuth 15 --elevation 5 --time
-render hydrotropism.png hydrotropism --size 400x400 --field water.head:slice --azimuth 0 --elevation 5
-render chemotropism.png chemotropism --size 400x400 --field nitrate:slice --azimuth 0 --elevation 5
+render hydrotropism.png hydrotropism --size 400x400 --field water.head:slice=z-0.05 --azimuth 0 --elevation 5
+render chemotropism.png chemotropism --size 400x400 --field nitrate:slice=z-0.05 --azimuth 0 --elevation 5
 render split-pot.png split-pot --size 500x380 --field roots:slice --azimuth 0 --elevation 5
 render nitrate-in-rain.png nitrate-in-rain --size 180x400 --sheet 5x1 --step 12:60:12 --field nitrate:slice --azimuth 15 --elevation 5 --time
 render growth.png two-trees --sheet 4x2 --size 250x190 --colour-by birth

@@ -2,7 +2,8 @@
 
 A wheel has the module, and below its `data` the libraries, the program, models and man pages: they are installed beside the
 module's folder of libraries, where it looks for them. Settings of pip: `--config-settings build-dir=FOLDER` (default: build/wheel),
-`--config-settings cmake=-DNAME=VALUE`.
+`--config-settings cmake=-DNAME=VALUE`, `--config-settings libraries=inside`: with all libraries that are
+none of the system's, for machines that lack them (needs patchelf).
 """
 
 import base64
@@ -61,6 +62,10 @@ def build_with_cmake(prefix, settings):
     subprocess.run(["cmake", "--build", build, "--parallel", jobs], check=True)
     for component in COMPONENTS:
         subprocess.run(["cmake", "--install", build, "--component", component, "--prefix", prefix, "--strip"], check=True)
+    if settings.get("libraries") == "inside":
+        pathlib.Path(prefix, "lib/espalier/libespalier_ranks.so").unlink(missing_ok=True)  # MPI is the cluster's
+        # They lie beside the program's modules, where no other package of Python has libraries.
+        subprocess.run([ROOT / "packaging/gather-libraries", prefix, "lib/espalier", "share/doc/espalier/licences"], check=True)
 
 
 def place_in_wheel(path, data):
@@ -73,9 +78,11 @@ def place_in_wheel(path, data):
 
 def installed_files(prefix):
     """Path and file; of a library the file under the name that programs ask for, because wheels have no links."""
-    for file in sorted(prefix.rglob("*")):
+    files = sorted(prefix.rglob("*"))
+    linked = {file.resolve() for file in files if file.is_symlink()}
+    for file in files:
         path = file.relative_to(prefix).as_posix()
-        if file.is_dir() or (".so." in file.name and not file.is_symlink()):
+        if file.is_dir() or (not file.is_symlink() and file.resolve() in linked):
             continue
         yield path, file.resolve()
 

@@ -5,6 +5,8 @@
 #include "base/platform.h"
 #include "module_file.h"
 
+#include <algorithm>
+#include <array>
 #include <string>
 
 namespace espalier::app {
@@ -18,6 +20,13 @@ bool open_looking_half() {
         return true;
     }();
     return opened;
+}
+
+bool is_of_looking_half(std::string_view command) {
+    static constexpr std::array<std::string_view, 17> names{
+        "sweep", "tree", "render",       "landscape", "plot", "view",    "analyse",  "info",  "export",
+        "share", "scan", "leaf-texture", "lesson",    "fit",  "dataset", "fit-leaf", "studio"};
+    return std::find(names.begin(), names.end(), command) != names.end();
 }
 
 }  // namespace espalier::app

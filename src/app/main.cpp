@@ -29,9 +29,11 @@ namespace {
 const char* const not_here =
     "Commands that read runs, such as render and export, are not here: `./dev build` builds them.";
 
-// What CLI11 could make nothing of, options first; "" if it made something of everything.
+// What CLI11 could make nothing of: a first word that is no command, else options first; "" if it made something of
+// everything.
 std::string unexpected(const CLI::App& program) {
     const std::vector<std::string> rest = program.remaining(true);
+    if (program.get_subcommands().empty() && !rest.empty() && !rest.front().starts_with('-')) return rest.front();
     const auto option = std::find_if(rest.begin(), rest.end(), [](const auto& word) { return word.starts_with('-'); });
     if (option != rest.end()) return *option;
     return rest.empty() ? "" : rest.front();
@@ -75,6 +77,11 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
     std::string message = error.what();
     if (word.starts_with('-')) {
         message = fmt::format("{} has no option '{}'{}", name, word, did_you_mean(word, options));
+    } else if (command == &program && is_of_looking_half(word) && !open_looking_half()) {
+        return fmt::format(
+            "`espalier {}` is not here: this build has the commands that grow plants alone, as `./dev run` makes it. "
+            "`./dev build` builds all.",
+            word);
     } else if (!word.empty() && command == &program) {
         message = fmt::format("there is no command '{}'; the commands are {}{}", word, fmt::join(commands, ", "),
                               did_you_mean(word, commands));

@@ -17,7 +17,7 @@ namespace espalier::formats {
 namespace {
 
 // Numbers of the standard: component types and what a buffer view is for.
-constexpr const char* instancing = "EXT_mesh_gpu_instancing";
+constexpr const char *instancing = "EXT_mesh_gpu_instancing", *levels = "MSFT_lod", *unlit = "KHR_materials_unlit";
 constexpr int unsigned_short = 5123, unsigned_int = 5125, float_number = 5126, vertex_buffer = 34962,
               index_buffer = 34963;
 
@@ -82,6 +82,11 @@ void Glb::add_texture(const std::string& file, const std::string& png, TextureMa
     texture_number_[{file, map}] = textures_.size() - 1;
 }
 
+void Glb::add_lit_picture(const std::string& file, const std::string& png) {
+    add_texture(file, png);
+    lit_.insert(textures_.size() - 1);
+}
+
 std::string Glb::hint() const {
     return hint_of_missing(missing_);
 }
@@ -101,6 +106,7 @@ std::size_t Glb::material(const MeshMaterial& look) {
     if (const auto number = texture(look.texture, TextureMap::colours)) {
         surface["baseColorTexture"] = {{"index", *number}};
         if (cut_out_.contains(*number) && recorded.opacity == 1) material["alphaMode"] = "MASK";
+        if (lit_.contains(*number)) material["extensions"] = {{unlit, Json::object()}};
     }
     if (const auto number = texture(look.texture, TextureMap::normals))
         material["normalTexture"] = {{"index", *number}};
@@ -164,6 +170,12 @@ std::size_t Glb::add_instances(Json node, const std::vector<glm::vec3>& translat
     return add_node(std::move(node));
 }
 
+void Glb::add_levels(std::size_t node, const std::vector<std::size_t>& coarser, const std::vector<double>& ends) {
+    nodes_[node]["extensions"][levels] = {{"ids", coarser}};
+    nodes_[node]["extras"]["MSFT_screencoverage"] = ends;
+    has_levels_ = true;
+}
+
 std::size_t Glb::times_accessor(const std::vector<float>& times) {
     const auto known = times_.find(times);
     if (known != times_.end()) return known->second;
@@ -195,7 +207,12 @@ std::string Glb::bytes(const std::vector<std::size_t>& roots) const {
     const auto add_unless_empty = [&](const char* key, const Json& list) {
         if (!list.empty()) json[key] = list;
     };
-    if (has_instances_) json["extensionsUsed"] = json["extensionsRequired"] = Json::array({instancing});
+    if (!lit_.empty()) json["extensionsUsed"].push_back(unlit);
+    if (has_levels_) json["extensionsUsed"].push_back(levels);  // who does not know them shows the finest
+    if (has_instances_) {
+        json["extensionsUsed"].push_back(instancing);
+        json["extensionsRequired"] = Json::array({instancing});
+    }
     add_unless_empty("nodes", nodes_);
     add_unless_empty("meshes", meshes_);
     add_unless_empty("materials", materials_);

@@ -30,6 +30,9 @@ public:
                          const std::vector<std::uint32_t>& material_of, const std::vector<MeshMaterial>& materials);
     /// What surfaces that wear this file wear, instead of what lies there.
     void add_texture(const std::string& file, const std::string& png, TextureMap map = TextureMap::colours);
+    /// As `add_texture`, of a picture that shows its own light and shade: lights of the viewer leave it as it is
+    /// (KHR_materials_unlit).
+    void add_lit_picture(const std::string& file, const std::string& png);
     /// Returns the node's number.
     std::size_t add_node(Json node);
     /// A mesh in many places, one node (EXT_mesh_gpu_instancing); returns its number.
@@ -39,6 +42,10 @@ public:
     /// from each to the next.
     void animate(std::size_t node, const char* path, const std::vector<float>& times,
                  const std::vector<glm::vec4>& values, const char* interpolation = "LINEAR");
+
+    /// A node, and what viewers show instead of it where it covers less of the picture (MSFT_lod): the share of the
+    /// picture's height at which each of the nodes ends, the finest first. The others are no roots.
+    void add_levels(std::size_t node, const std::vector<std::size_t>& coarser, const std::vector<double>& ends);
 
     Json& nodes() { return nodes_; }
     /// Names the textures that are missing.
@@ -65,9 +72,10 @@ private:
     std::map<std::pair<std::string, TextureMap>, std::optional<std::size_t>> texture_number_;
     std::vector<std::string> missing_;  ///< textures
     std::set<std::size_t> cut_out_;     ///< textures whose pictures are partly transparent
+    std::set<std::size_t> lit_;         ///< textures that show their own light
     std::map<std::vector<float>, std::size_t> times_;
     std::string binary_;
-    bool has_instances_ = false;
+    bool has_instances_ = false, has_levels_ = false;
 };
 
 }  // namespace espalier::formats

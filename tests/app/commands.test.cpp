@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <iterator>
+#include <set>
 #include <sstream>
 
 namespace fs = std::filesystem;
@@ -42,6 +44,32 @@ TEST_CASE_METHOD(Workplace, "help teaches by example and never fails", "[app]") 
         CHECK(outcome.code == 0);
         CHECK_THAT(outcome.out, Contains("Example") && Contains(std::string("espalier ") + command));
     }
+}
+
+TEST_CASE_METHOD(Workplace, "a program without the half that looks says so before it complains of an option", "[app]") {
+    const auto commands = [&](const std::string& help) {
+        std::set<std::string> names;
+        std::istringstream lines(help.substr(help.find("ommands:")));
+        for (std::string line; std::getline(lines, line);) {
+            if (line.starts_with("  ") && std::islower(static_cast<unsigned char>(line[2]))) {
+                names.insert(line.substr(2, line.find(' ', 2) - 2));
+            }
+        }
+        return names;
+    };
+    const std::set<std::string> all = commands(run("--help").out);
+    fs::copy_file(ESPALIER_PROGRAM, path() / "alone");
+    const auto alone = [&](const std::string& arguments) { return run("--version >version; ./alone " + arguments); };
+    const std::set<std::string> grow = commands(alone("--help").out);
+    CHECK(grow.contains("run"));
+    CHECK(all.size() > grow.size() + 10);
+    for (const std::string& command : all) {
+        INFO(command);
+        if (!grow.contains(command)) CHECK_THAT(alone(command + " there --quantity x").err, Contains("is not here"));
+    }
+    CHECK_THAT(alone("plot there --quantity x").err, Contains("`./dev build` builds all"));
+    CHECK_THAT(alone("rendr there").err, Contains("there is no command 'rendr'"));
+    CHECK_THAT(run("rendr there --quantity x").err, Contains("did you mean 'render'"));
 }
 
 TEST_CASE_METHOD(Workplace, "a model on its own runs, tells where its output is, and info reads it", "[app]") {

@@ -40,8 +40,12 @@ TEST_CASE_METHOD(Machine, "./dev removes no package of the user's, and says what
 }
 
 TEST_CASE_METHOD(Machine, "./dev installs what is missing where that removes nothing", "[docs]") {
-    program("apt-get", "case \"$*\" in *--simulate*) ;; *) echo apt-get \"$@\" >> calls ;; esac");
-    CHECK(dev("build").code == 0);
+    program("apt-get",
+            "case \"$*\" in *--simulate*) ;; *--assume-no*) echo 'Need to get 38.9 MB of archives.'; exit 1 ;; *) echo "
+            "apt-get \"$@\" >> calls ;; esac");
+    const Outcome outcome = dev("build");
+    CHECK(outcome.code == 0);
+    CHECK_THAT(outcome.err, Contains("libvtk9-dev: meshes") && Contains("\n  Need to get 38.9 MB of archives.\n"));
     CHECK_THAT(calls(), Contains("apt-get install") && Contains("--no-remove") && Contains("libvtk9-dev") &&
                             Contains("cmake --build"));
 }
@@ -55,13 +59,17 @@ TEST_CASE_METHOD(Machine, "./dev run needs no VTK and builds what grows alone, s
     const Outcome outcome = dev("run scene.toml");
     CHECK(outcome.code == 0);
     CHECK_THAT(outcome.out, Contains("grown run scene.toml"));
+    CHECK_THAT(outcome.err, Contains("a first run compiles") && Contains(" MB") && Contains("next: open plants.pvd") &&
+                                Contains("./dev build makes the commands that look"));
     CHECK_THAT(calls(), !Contains("apt-get") && Contains("-DESPALIER_LOOK=OFF") && Contains("-DESPALIER_UNITY=ON") &&
                             Contains("--target espalier_program"));
     // Where the commands that look are built already, they are kept up to date.
     std::ofstream(path() / "clone/build/release/CMakeCache.txt") << "";
     std::ofstream(path() / "clone/build/release/libespalier_look_commands.so") << "";
     std::filesystem::remove(path() / "calls");
-    CHECK(dev("run scene.toml").code == 0);
+    const Outcome second = dev("run scene.toml --output there");
+    CHECK(second.code == 0);
+    CHECK_THAT(second.err, !Contains("first run") && Contains("espalier view there"));
     CHECK_THAT(calls(), Contains("-DESPALIER_LOOK=ON") && !Contains("UNITY") && Contains("espalier_look_commands"));
 }
 

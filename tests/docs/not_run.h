@@ -20,6 +20,7 @@ inline const std::vector<NotRun>& not_run() {
         {"docs/first-steps.md", "espalier view output/two-trees",
          "opens a window that stays until the user closes it; tests/app/view.test.cpp drives one", ""},
         {"docs/installing.md", "./dev packages", "builds everything once more", ""},
+        {"docs/installing.md", "./dev wheels", "builds everything once more; ./dev wheels --check uses what comes out", ""},
         {"docs/installing.md", "./dev bundle", "packs 220 MB; ./dev bundle --check uses what comes out", ""},
         {"docs/installing.md", "sudo apt install ./build/packages/*.deb",
          "./dev packages --check installs them into a Debian of its own", ""},

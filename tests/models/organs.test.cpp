@@ -82,7 +82,7 @@ TEST_CASE("flower: a surface's frame is the turtle's where it stands", "[organs]
     LonePlant flower = seen("flower", 12);
     for (const Organ& organ : flower.interpretation.geometry.organs) {
         const Pose& pose = organ.pose;
-        CHECK(glm::distance(pose.position, glm::dvec3(0, 4, 0)) < 1e-12);
+        CHECK(glm::distance(pose.position, glm::dvec3(0, 0.08, 0)) < 1e-12);
         CHECK(glm::distance(glm::cross(pose.left, pose.heading), pose.up) < 1e-12);
         CHECK(glm::length(pose.heading) == Approx(1));
         CHECK(std::abs(glm::dot(pose.heading, pose.left)) < 1e-12);

@@ -185,7 +185,7 @@ TEST_CASE("pineapple: its organs leave no hole", "[phyllotaxis]") {
 }
 
 TEST_CASE("cone: scales shrink towards the tip, and have area by their size", "[phyllotaxis]") {
-    LonePlant cone("models/phyllotaxis/cone.l", {{"SIZE", "0.55"}, {"LENGTH", "7"}});
+    LonePlant cone("models/phyllotaxis/cone.l", {{"SIZE", "0.55"}, {"LENGTH", "0.07"}});
     cone.grow(300);
     const auto sizes = values_of(cone.string, cone.model->alphabet, "K");
     REQUIRE(sizes.size() > 60);

@@ -12,11 +12,13 @@
 #include "app/progress.h"
 #include "app/run_command.h"
 #include "app/setting_values.h"
+#include "base/folder.h"
 #include "base/json_text.h"
 #include "base/number.h"
 #include "base/text.h"
 #include "environment/space/markers/end_of_growth.h"
 #include "mesh_file_options.h"
+#include "tree_levels.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -117,6 +119,12 @@ public:
             "--leaf-picture", leaf_picture_,
             "PNG with opacity that leaves wear, in its own colours unless --leaf-colour is given; default: "
             "that of the scene. See espalier leaf-texture");
+        app()
+            .add_option("--lod", levels_,
+                        "glb: so many levels of detail in one file (MSFT_lod): meshes, each of a fourth of the "
+                        "triangles of the one before, and last two cards that cross and wear pictures of the tree")
+            ->check(CLI::Range(2, 8))
+            ->group("Mesh");
         app().add_option("--run", run_, "keep the run in this folder; default: it is removed");
         app()
             .add_option("--threads", arguments_.threads, "number of threads; default: all cores")
@@ -198,8 +206,11 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
     }
 
     Target target() const {
-        if (output_.empty()) return {"", "tree", "obj", true};
+        if (output_.empty()) return {"", "tree", levels_ > 0 ? "gltf" : "obj", true};
         const std::string format = format_of_extension(output_.extension().string());
+        if (levels_ > 0 && format != "gltf") {
+            throw UserError(fmt::format("--output {}: --lod needs the extension .glb", output_.string()));
+        }
         if (!format.empty()) return {output_.parent_path(), output_.stem().string(), format, false};
         throw UserError(fmt::format(
             "--output {}: the extension must be that of a format: .obj, .glb, .usda, .ply, .stl", output_.string()));
@@ -318,7 +329,14 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
         if (!mesh_.says_sides() && frame->geometry->polygons.size() == 0) job.options.sides = sides_if_bare;
         job.counts = job.counts || target.counts;
         job.keep = true;
-        export_run(job, std::vector{target.format});
+        if (levels_ == 0) {
+            export_run(job, std::vector{target.format});
+            return files;
+        }
+        const LevelsFile levels = tree_levels(job, levels_);
+        if (!job.folder.empty()) make_folder(job.folder);
+        report(write_levels(levels, job.path("glb")));
+        files.back()["levels"] = levels.triangles();
         return files;
     }
 
@@ -339,6 +357,9 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
             fmt::print("{}: {} vertices, {} triangles, {}\n", file["path"].get<std::string>(),
                        grouped(file["vertices"].get<std::size_t>()), grouped(file["triangles"].get<std::size_t>()),
                        duration_text(seconds));
+            for (std::size_t level = 0; file.contains("levels") && level < file["levels"].size(); ++level) {
+                fmt::print("  level {}: {} triangles\n", level, grouped(file["levels"][level].get<std::size_t>()));
+            }
         }
     }
 
@@ -349,6 +370,7 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
     std::string preset_, seed_, memory_;
     fs::path output_, settings_, saved_, leaf_picture_, run_;
     MeshFileOptions mesh_;
+    std::size_t levels_ = 0;  ///< 0: the tree with all its detail alone
 };
 
 const RegisteredCommand<Tree> tree_entry{18};

@@ -237,6 +237,11 @@ std::vector<CardPicture> card_pictures(const LandscapeSpecies& species, const gl
     return cards;
 }
 
+CardPicture card_picture(const LandscapeSpecies& species, const glm::dvec3& towards, const RayLight& light,
+                         std::size_t pixels, const TextureOf& texture_of) {
+    return CardPainter(species, glm::normalize(towards), texture_of).card(0, light, pixels);
+}
+
 OpacityPicture landscape_picture(const PlantedLandscape& landscape, const std::vector<std::vector<CardPicture>>& cards,
                                  const LandscapeView& view, const RayLight& light, const LandscapeLook& look,
                                  const std::function<void(double share)>& progress) {

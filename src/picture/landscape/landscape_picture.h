@@ -21,6 +21,10 @@ struct CardPicture {
 std::vector<CardPicture> card_pictures(const LandscapeSpecies& species, const glm::dvec3& towards_eye,
                                        const RayLight& light, std::size_t pixels, const TextureOf& texture_of);
 
+/// The plant as it stands, from one direction.
+CardPicture card_picture(const LandscapeSpecies& species, const glm::dvec3& towards_eye, const RayLight& light,
+                         std::size_t pixels, const TextureOf& texture_of);
+
 struct LandscapeView {
     glm::dvec3 eye, target;
     double angle = 40;  ///< degrees, from the lower edge to the upper

@@ -1,6 +1,6 @@
 #include "study/landscape/landscape_scene.h"
 
-#include "archive/meshes/texture_file.h"
+#include "archive/meshes/texture_picture.h"
 #include "language/parser/vector_field.h"
 #include "picture/palette.h"
 #include "picture/stage/sky_visibility.h"
@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <vtkImageData.h>
 
 #include <algorithm>
 
@@ -91,24 +90,6 @@ Terrain terrain_of(const Settings& settings, const std::vector<StandPlant>& stan
     return blamed_on(settings, "heights", [&] { return Terrain(lower, upper, {places, places}, height); });
 }
 
-std::shared_ptr<const OpacityPicture> texture_picture(const std::string& file) {
-    const auto image = texture_image({}, file);
-    if (!image || image->GetScalarType() != VTK_UNSIGNED_CHAR) return nullptr;
-    const int* size = image->GetDimensions();
-    const int parts = image->GetNumberOfScalarComponents();
-    const auto* from = static_cast<const std::uint8_t*>(image->GetScalarPointer());
-    OpacityPicture picture{static_cast<std::size_t>(size[0]), static_cast<std::size_t>(size[1]), {}};
-    picture.pixels.resize(picture.width * picture.height);
-    for (std::size_t y = picture.height; y-- > 0;) {
-        for (std::size_t x = 0; x < picture.width; ++x, from += parts) {
-            const bool is_grey = parts < 3;
-            picture.at(x, y) = {from[0], from[is_grey ? 0 : 1], from[is_grey ? 0 : 2],
-                                parts == 4 || parts == 2 ? from[parts - 1] : std::uint8_t{255}};
-        }
-    }
-    return std::make_shared<const OpacityPicture>(std::move(picture));
-}
-
 LandscapeView view_of(const Settings& camera, const Terrain& terrain) {
     const glm::dvec2 middle = (terrain.lower() + terrain.upper()) / 2.0, size = terrain.upper() - terrain.lower();
     const auto over_ground = [&](const glm::dvec3& place) {
@@ -130,7 +111,7 @@ LandscapeLook look_of(const Settings& settings) {
     look.ground = ground_of(settings.table("terrain"));
     look.visibility = light.number_or("visibility", 3000, Range::positive());
     look.samples = static_cast<int>(detail.integer_or("samples", 3, Range::between(1, 16)));
-    look.texture_of = texture_picture;
+    look.texture_of = [](const std::string& file) { return texture_picture({}, file); };
     return look;
 }
 
