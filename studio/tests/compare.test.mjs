@@ -1,6 +1,7 @@
 // Two growths beside each other, and many of a sweep: node tests/compare.test.mjs PROGRAM
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 import { after, before, test } from "node:test";
 import { answered, grown, openBrowser, openPage, rests, shot, told } from "./browser.mjs";
@@ -8,6 +9,7 @@ import { startProgram, workFolder, writeDay } from "./program.mjs";
 
 const programPath = resolve(process.argv[2] ?? "build/release/espalier");
 const place = workFolder();
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 let program;
 let browser;
 let page;
@@ -16,6 +18,13 @@ const picture = async () => {
   await rests(page);
   return page.locator(".viewport canvas").screenshot();
 };
+
+/** Rules of axe that are broken gravely. */
+const violations = () =>
+  page.evaluate(
+    `${axe}; axe.run(document, { resultTypes: ["violations"] }).then(({ violations }) =>
+      violations.filter(({ impact }) => impact === "critical" || impact === "serious").map(({ id }) => id))`,
+  );
 
 async function open(name) {
   await page.getByRole("button", { name: "Gallery", exact: true }).click();
@@ -57,6 +66,7 @@ test("a pinned growth stands beside the next one, with words for what it was", a
   await page.waitForSelector("canvas[data-pinned='8']");
   assert.notDeepEqual(await picture(), alone);
   await shot(page, "compare-beside");
+  assert.deepEqual(await violations(), []);
   await page.locator(".scrub").fill("5");
   await page.waitForSelector("canvas[data-pinned='5']");
   await page.locator(".scrub").fill("8");
@@ -121,6 +131,7 @@ test("a slider is swept into a grid of plants and a chart, and the document stay
   assert.match(await dialog.locator(".u-legend").textContent(), /value/);
   await rests(page);
   await shot(page, "sweep");
+  assert.deepEqual(await violations(), []);
   assert.equal(await page.locator(".cm-content").textContent(), text);
   assert.equal(await page.locator("#setting-ANGLE").inputValue(), "32");
   const pixels = await dialog.locator(".sweep-tile canvas").evaluateAll((all) => all.map((canvas) => canvas.toDataURL()));

@@ -364,7 +364,8 @@ void Growth::note_derived(Work& work) {
     const std::size_t before = std::exchange(work.modules, work.world.modules());
     const double factor = before > 0 ? double(work.modules) / double(before) : 0;
     // An axiom that becomes a whole plant in one step does not go on like that.
-    work.expected = static_cast<std::size_t>(std::min(factor, std::exchange(work.factor, factor)) * double(work.modules));
+    work.expected =
+        static_cast<std::size_t>(std::min(factor, std::exchange(work.factor, factor)) * double(work.modules));
     work.told_stop = false;
     work.draws_in_order = true;
     if (!may_extend_) last_step_ = work.world.last_step();  // models may change it
