@@ -5,6 +5,7 @@
 #include "espalier/turtle/query.h"
 
 #include <compare>
+#include <concepts>
 #include <cstddef>
 #include <iterator>
 #include <span>
@@ -54,7 +55,9 @@ public:
     Queries() = default;
     /// Those of one plant, or copies.
     Queries(std::span<const Query> rows) : rows_(rows.data()), size_(rows.size()) {}
-    Queries(const QueryColumn& rows) : Queries(std::span<const Query>(rows)) {}
+    template <class Rows>
+    requires std::convertible_to<const Rows&, std::span<const Query>> Queries(const Rows& rows)
+        : Queries(std::span<const Query>(rows)) {}
     /// Those of many plants.
     explicit Queries(std::span<const Query* const> places) : places_(places.data()), size_(places.size()) {}
 

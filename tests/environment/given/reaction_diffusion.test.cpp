@@ -43,7 +43,7 @@ struct Alone {
         const std::vector<double> asked = parameters;
         query.parameters = asked;
         std::vector<Answer> answers = {Answer(parameters.data(), parameters.size())};
-        process->answer({}, std::span<const Query>(&query, 1), answers, fields);
+        process->answer({}, std::span(&query, 1), answers, fields);
         return parameters;
     }
 

@@ -55,7 +55,7 @@ struct Solute {
         queries[0].parameters = parameters;
         queries[0].pose.position = position;
         std::vector<Answer> answers{Answer(parameters)};
-        process->answer(world(), std::span<const Query>(queries), answers, fields());
+        process->answer(world(), queries, answers, fields());
         return parameters;
     }
 

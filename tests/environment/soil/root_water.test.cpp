@@ -242,7 +242,7 @@ TEST_CASE("a query is told the water of the internode before it", "[environment]
     query.pose.position = {0.01, -0.2, 0.01};
     std::vector<Query> queries{query};
     std::vector<Answer> answers{Answer(values)};
-    pair.process->answer(pair.water.world, std::span<const Query>(queries), answers, pair.water.fields);
+    pair.process->answer(pair.water.world, queries, answers, pair.water.fields);
     CHECK(values[0] < -100);  // the potential in it
     CHECK(values[0] > -1000);
     CHECK(values[1] > 0);
@@ -269,7 +269,7 @@ TEST_CASE("organs know their water without a query, as a query is told it", "[en
         query.pose.position = {0.01, -0.05 * double(i + 1), 0.01};
         std::vector<Query> queries{query};
         std::vector<Answer> answers{Answer(told)};
-        plant.process->answer(plant.water.world, std::span<const Query>(queries), answers, plant.water.fields);
+        plant.process->answer(plant.water.world, queries, answers, plant.water.fields);
         const char* const names[] = {"head", "uptake", "soil", "fraction"};
         for (std::size_t n = 0; n < 4; ++n) CHECK(values(names[n])[i] == static_cast<float>(told[n]));
         CHECK(values("radial")[i] == Approx(1.73e-4));

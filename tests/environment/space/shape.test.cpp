@@ -38,8 +38,8 @@ public:
         }
         WorldView world;
         world.step = step;
-        process->advance(world, std::span<const Query>(queries), fields);
-        process->answer(world, std::span<const Query>(queries), answers, fields);
+        process->advance(world, queries, fields);
+        process->answer(world, queries, answers, fields);
         return values;
     }
 

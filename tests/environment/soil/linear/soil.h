@@ -55,7 +55,7 @@ struct Soil {
             values.push_back(tip.parameters);
         }
         std::vector<Answer> answers(values.begin(), values.end());
-        process->answer(world, std::span<const Query>(queries), answers, fields);
+        process->answer(world, queries, answers, fields);
         return values;
     }
 
