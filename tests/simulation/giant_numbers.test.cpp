@@ -59,9 +59,11 @@ std::vector<ObjectFiles> objects(const TemporaryFolder& folder) {
     std::vector<ObjectFiles> all;
     for (const char* const name : {"species", "pgraph", "sdl"}) {
         for (const auto& entry : fs::directory_iterator(project / "models" / name)) {
-            if (entry.path().extension() == ".md") continue;
+            if (entry.path().extension() == ".md" || entry.path().extension() == ".v") continue;
             ObjectFiles& object = all.emplace_back();
             object.model = entry.path();
+            const fs::path view = fs::path(entry.path()).replace_extension(".v");
+            if (fs::exists(view)) object.view = view;
         }
     }
     const auto add = [&](const fs::path& model, const fs::path& view) {
