@@ -53,8 +53,7 @@ private:
         double gathered = 0, growing = 0;
     };
 
-    void answer_plant(const PlantView& plant, Queries queries, std::span<Answer> answers,
-                      Totals& totals) const {
+    void answer_plant(const PlantView& plant, Queries queries, std::span<Answer> answers, Totals& totals) const {
         const ModuleString& string = *plant.string;
         std::vector<Fork> forks(string.size());
         totals.gathered = gather(string, queries, forks);
