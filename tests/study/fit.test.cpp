@@ -12,7 +12,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 using namespace espalier;
 using namespace espalier::study;
@@ -223,6 +225,46 @@ TEST_CASE("a growth that was followed gives its rate back", "[fit]") {
     const FitResult result = fit_least_squares(task, {}, no_progress);
     CHECK(result.parameters[0].value == Approx(1.31).epsilon(1e-5));
     CHECK(result.residual < 1e-5);
+}
+
+TEST_CASE("what was measured has places beside a plant, its foot at 0", "[fit]") {
+    const TemporaryFolder folder;
+    write_text(folder.path() / "marks.csv", "axis,x,y\n0,3,1\n0,3,2\n0,3,4\n1,3,2\n1,4,2.5\n");
+    const MeasuredPlaces marks = read_target(folder.path() / "marks.csv")->places();
+    REQUIRE(marks.lines.size() == 2);
+    CHECK(marks.has_scale);
+    CHECK(marks.lines[0] == std::vector<glm::dvec3>{{0, 0, 0}, {0, 1, 0}, {0, 3, 0}});
+    CHECK(marks.lines[1].back() == glm::dvec3(1, 1.5, 0));
+
+    const std::filesystem::path rsml = std::filesystem::path(ESPALIER_SOURCE_DIR) / "docs/marks/lupine.rsml";
+    const MeasuredPlaces roots = read_target(rsml)->places();
+    REQUIRE(roots.lines.size() > 5);
+    CHECK(roots.points.empty());
+    CHECK(roots.lines.front().front() == glm::dvec3(0));
+    double lowest = 0;
+    for (const auto& line : roots.lines) lowest = std::min(lowest, line.back().y);
+    CHECK(lowest < -0.1);
+
+    write_text(folder.path() / "course.csv", "time,height\n1,0.5\n2.5,\n3,0.9\n");
+    const MeasuredCourse course = read_target(folder.path() / "course.csv")->course();
+    CHECK_FALSE(course.is_by_step);
+    REQUIRE(course.observations.size() == 2);
+    CHECK(course.observations[1].at == 3);
+    CHECK(course.observations[1].value == 0.9);
+}
+
+TEST_CASE("a search tells its best so far, which only gets better", "[fit]") {
+    const TemporaryFolder folder;
+    const FitTask task = task_of(all_species[0], folder.path(), 1);
+    double least = std::numeric_limits<double>::infinity();
+    std::vector<double> best;
+    const FitResult result = fit_least_squares(task, {}, [&](const FitState& state) {
+        CHECK(state.residual <= least);
+        least = state.residual;
+        best.assign(state.best.begin(), state.best.end());
+    });
+    CHECK(result.residual == Approx(least).epsilon(1e-9));
+    for (std::size_t k = 0; k < best.size(); ++k) CHECK(best[k] == Approx(result.values()[k]).epsilon(1e-6));
 }
 
 TEST_CASE("what cannot be told apart is said", "[fit]") {

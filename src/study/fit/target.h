@@ -27,7 +27,7 @@ struct Statistic {
 /// Where what was measured lies: metres, y upwards, the plant's foot at 0.
 struct MeasuredPlaces {
     std::vector<glm::dvec3> points;
-    std::vector<std::vector<glm::dvec3>> lines;  ///< axes, from their bases on
+    std::vector<std::vector<glm::dvec3>> lines;  ///< axes, or pieces of them
     bool has_scale = true;                       ///< false: only ratios of lengths count
 };
 
