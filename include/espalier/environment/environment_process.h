@@ -111,8 +111,7 @@ public:
     virtual void advance(const WorldView&, Queries, Fields&) {}
 
     /// Answers the whole batch; answers[i] belongs to queries[i] and begins as a copy of its parameters.
-    virtual void answer(const WorldView& world, Queries queries, std::span<Answer> answers,
-                        Fields& fields) = 0;
+    virtual void answer(const WorldView& world, Queries queries, std::span<Answer> answers, Fields& fields) = 0;
 
     /// What keyframes of a scene may change: they set it before `advance`. All other settings stay.
     virtual std::vector<ChangingSetting> changing_settings() { return {}; }

@@ -426,8 +426,7 @@ private:
 
     /// Each query is answered the water of the internode before it: potential in it, and of roots uptake, soil at their
     /// surface, share of the uptake from uniform soil.
-    void tell(const PlantView& view, std::size_t plant, Queries queries,
-              std::span<Answer> answers) const {
+    void tell(const PlantView& view, std::size_t plant, Queries queries, std::span<Answer> answers) const {
         const turtle::OrganBearers bearers(view.interpretation->geometry, *view.string);
         for (std::size_t q = 0; q < queries.size(); ++q) {
             const std::uint32_t internode = bearers.of(queries[q].module, queries[q].pose.position);

@@ -71,8 +71,7 @@ Record record_of(std::string_view line) {
 
 }  // namespace
 
-std::string text_of_queries(const WorldView& world, Queries queries,
-                            const Communication& communication) {
+std::string text_of_queries(const WorldView& world, Queries queries, const Communication& communication) {
     std::string text;
     for (std::size_t address = 0; address < queries.size(); ++address) {
         const Query& query = queries[address];

@@ -62,8 +62,7 @@ SoilQueries::SoilQueries(const SoilQuerying& querying, const EnvironmentContext&
       uptake_(context.plants, 0),
       wish_(context.plants, 0) {}
 
-std::vector<WaterWish> SoilQueries::sense(const SensedSoil& soil, Queries queries,
-                                          std::span<Answer> answers) {
+std::vector<WaterWish> SoilQueries::sense(const SensedSoil& soil, Queries queries, std::span<Answer> answers) {
     std::fill(uptake_.begin(), uptake_.end(), 0);
     std::fill(wish_.begin(), wish_.end(), 0);
     require_finite(queries);

@@ -49,8 +49,8 @@ public:
 
 private:
     std::vector<WaterWish> sense(const SensedSoil& soil, Queries queries, std::span<Answer> answers);
-    double obtain(const WaterGrid& grid, std::span<const WaterWish> wishes, Queries queries,
-                  std::span<Answer> answers, WaterBrick& stock);
+    double obtain(const WaterGrid& grid, std::span<const WaterWish> wishes, Queries queries, std::span<Answer> answers,
+                  WaterBrick& stock);
     void warn_of_wishes_beyond_voxels(Queries queries);
 
     const SoilQuerying& querying_;
