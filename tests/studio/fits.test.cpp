@@ -36,7 +36,7 @@ double length_of(const Scene& scene) {
 
 /// The sum of the numbers is found, each as small as can be.
 studio::FitOutcome sought(const studio::FitOrder& order) {
-    const double measured = std::stod(read_text(order.measured.at(0)));
+    const double measured = *static_cast<const double*>(order.measured.at(0).get());
     studio::FitOutcome outcome;
     double least = 1e9;
     const auto [name, start, lowest, highest, is_whole] = order.sought.at(0);
@@ -61,6 +61,7 @@ studio::Measurement measurement_of(const std::filesystem::path& file) {
     measured.values = {{"modules", std::stod(text), 1}};
     measured.points = {{0, 0.123456789, 0}};
     measured.notes = {"guessed"};
+    measured.read = std::make_shared<const double>(std::stod(text));
     return measured;
 }
 
@@ -131,6 +132,8 @@ TEST_CASE("what cannot be fitted is refused with a remedy", "[fits]") {
         CHECK(studio.ask(fit_of(wrong)).contains("error"));
     }
     CHECK(studio.ask({{"do", "fit"}, {"settings", Json::array()}}).contains("error"));
+    const Json twice = Json::array({range("UP", 0, 9), range("UP", 0, 9)});
+    CHECK_THAT(studio.ask({{"do", "fit"}, {"settings", twice}}).value("error", ""), Catch::Contains("sought twice"));
     CHECK(studio.ask({{"do", "forget-measured"}, {"number", 77}}).contains("error"));
 
     // Files of pages read nothing but themselves, and places lie below the folder.

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -37,7 +38,8 @@ struct Measurement {
     std::vector<std::vector<glm::dvec3>> lines;
     bool has_scale = true;  ///< false: only ratios of lengths count
     std::vector<CourseValue> course;
-    bool course_is_by_step = true;  ///< else by time
+    bool course_is_by_step = true;          ///< else by time
+    std::shared_ptr<const void> read = {};  ///< what the fit compares with; known to whoever reads and fits
 };
 
 /// A number of the document that is sought. Both bounds are finite.
@@ -68,7 +70,7 @@ struct FitOutcome {
 };
 
 struct FitOrder {
-    std::vector<std::filesystem::path> measured;
+    std::vector<std::shared_ptr<const void>> measured;  ///< as it was read
     std::vector<SoughtNumber> sought;
     std::size_t search = 0;  ///< comparisons of the search over the whole ranges; 0: what is usual
     /// The document with other values of these numbers; called on the thread that fits. Throws UserError.

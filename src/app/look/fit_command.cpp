@@ -259,11 +259,7 @@ private:
         for (std::size_t k = 0; k < result.parameters.size(); ++k) {
             print(task.unknowns[k], result.parameters[k], result.posterior.has_value());
         }
-        for (const study::Inseparable& pair : result.inseparable) {
-            fmt::print(
-                "{} and {} cannot be told apart (correlation {:.3f}): fix one, or measure what only one changes\n",
-                result.parameters[pair.one].name, result.parameters[pair.other].name, pair.correlation);
-        }
+        for (const study::Inseparable& pair : result.inseparable) fmt::print("{}\n", result.in_words(pair));
         std::size_t outside = 0;
         for (const study::Prediction& one : result.predictions) {
             if (!result.posterior || (one.measured.value >= one.low && one.measured.value <= one.high)) continue;

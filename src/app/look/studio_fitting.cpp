@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <memory>
 
 namespace espalier::app {
 namespace {
@@ -12,6 +12,7 @@ namespace {
 studio::Measurement measurement_of(const std::filesystem::path& file) {
     const std::shared_ptr<study::Target> target = study::read_target(file);
     studio::Measurement measured;
+    measured.read = target;
     for (const study::Statistic& one : target->statistics()) {
         measured.values.push_back({one.name, one.value, one.scale});
     }
@@ -33,13 +34,9 @@ study::Unknown unknown_of(const studio::SoughtNumber& sought) {
             study::Prior::uniform(sought.lowest, sought.highest, sought.is_whole)};
 }
 
-std::vector<std::string> remarks_of(const study::FitTask& task, const study::FitResult& result) {
+std::vector<std::string> remarks_of(const study::FitResult& result) {
     std::vector<std::string> remarks;
-    for (const study::Inseparable& pair : result.inseparable) {
-        remarks.push_back(fmt::format(
-            "{} and {} cannot be told apart (correlation {:.3f}): fix one, or measure what only one changes",
-            task.unknowns[pair.one].name, task.unknowns[pair.other].name, pair.correlation));
-    }
+    for (const study::Inseparable& pair : result.inseparable) remarks.push_back(result.in_words(pair));
     for (const study::FittedParameter& one : result.parameters) {
         if (!one.is_decided) remarks.push_back(fmt::format("what was measured does not decide {}", one.name));
     }
@@ -51,7 +48,7 @@ studio::FitOutcome fit(const studio::FitOrder& order) {
     subject.read = order.scene;
     study::FitTask task{study::Growth(subject), {}, {}};
     for (const studio::SoughtNumber& sought : order.sought) task.unknowns.push_back(unknown_of(sought));
-    for (const std::filesystem::path& file : order.measured) task.targets.push_back(study::read_target(file));
+    for (const auto& read : order.measured) task.targets.push_back(std::static_pointer_cast<const study::Target>(read));
     const study::FitResult result = fit_least_squares(task, {0, order.search}, [&](const study::FitState& state) {
         order.progress({state.done, state.all, {state.best.begin(), state.best.end()}, state.residual});
     });
@@ -60,7 +57,7 @@ studio::FitOutcome fit(const studio::FitOrder& order) {
         outcome.numbers.push_back({one.value, one.error, one.is_decided});
     }
     for (const study::Prediction& one : result.predictions) outcome.predicted.push_back(one.middle);
-    outcome.remarks = remarks_of(task, result);
+    outcome.remarks = remarks_of(result);
     outcome.residual = result.residual;
     outcome.worlds = result.evaluations;
     return outcome;

@@ -230,8 +230,7 @@ void Fits::add_sent(const std::string& name, const std::string& bytes) {
 }
 
 void Fits::read(const fs::path& file, std::optional<ReadPermission> permission) {
-    std::erase_if(running_, [](const RunningWork& work) { return work.has_ended(); });
-    running_.push_back(workers_.run([this, file, permission = std::move(permission)] {
+    run([this, file, permission = std::move(permission)] {
         const StopRequest::Scope scope(&stop_reading_);
         const ReadLog reads(0, {}, permission);
         try {
@@ -241,7 +240,12 @@ void Fits::read(const fs::path& file, std::optional<ReadPermission> permission) 
         } catch (const std::exception& error) {
             post_([this, why = reason_of(error)] { pages_.notify("error", why); });
         }
-    }));
+    });
+}
+
+void Fits::run(std::function<void()> work) {
+    std::erase_if(running_, [](const RunningWork& before) { return before.has_ended(); });
+    running_.push_back(workers_.run(std::move(work)));
 }
 
 void Fits::note_read(const fs::path& file, Measurement content) {
@@ -278,12 +282,16 @@ void Fits::begin(const std::vector<Range>& ranges, std::size_t search) {
     for (const Range& range : ranges) {
         const auto found = known.find(range.name);
         if (found == known.end()) throw UserError(fmt::format("there is no setting '{}'", range.name));
+        const auto is_it = [&](const SoughtNumber& other) { return other.name == range.name; };
+        if (std::any_of(order.sought.begin(), order.sought.end(), is_it)) {
+            throw UserError(fmt::format("{} is sought twice", range.name));
+        }
         order.sought.push_back(sought(range, found->second));
         places.push_back(found->second);
     }
-    for (const auto& [number, one] : measured_) order.measured.push_back(one.file);
-    order.scene = [this, texts = WrittenValues(state, places),
-                   permission = permission_of(state.opened.path, options_.library_folder)](const auto values) {
+    for (const auto& [number, one] : measured_) order.measured.push_back(one.content.read);
+    const auto permission = permission_of(state.opened.path, options_.library_folder);
+    order.scene = [this, texts = WrittenValues(state, places), permission](const auto values) {
         const DocumentState changed = texts.with(values);
         const ReadLog reads(0, changed.unsaved, permission);
         return options_.read(changed.opened);
@@ -293,10 +301,7 @@ void Fits::begin(const std::vector<Range>& ranges, std::size_t search) {
     best_ = {};
     is_fitting_ = true;
     stop_.withdraw();
-    std::erase_if(running_, [](const RunningWork& work) { return work.has_ended(); });
-    const UnsavedTexts unsaved = state.unsaved;
-    running_.push_back(workers_.run([this, order = std::move(order), unsaved,
-                                     permission = permission_of(state.opened.path, options_.library_folder)]() mutable {
+    run([this, order = std::move(order), unsaved = state.unsaved, permission]() mutable {
         const ReadLog reads(0, unsaved, permission);  // side files
         order.progress = [this, last = std::chrono::steady_clock::time_point()](const BestSoFar& best) mutable {
             const auto now = std::chrono::steady_clock::now();
@@ -308,7 +313,7 @@ void Fits::begin(const std::vector<Range>& ranges, std::size_t search) {
             });
         };
         work(order);
-    }));
+    });
 }
 
 void Fits::work(const FitOrder& order) {
@@ -334,13 +339,9 @@ void Fits::work(const FitOrder& order) {
     }
     post_([this, message = fitted_message(end), why] {
         if (!why.empty()) pages_.notify("error", why);
-        note_ended(message);
+        is_fitting_ = false;
+        pages_.broadcast(message);
     });
-}
-
-void Fits::note_ended(const Json& message) {
-    is_fitting_ = false;
-    pages_.broadcast(message);
 }
 
 void Fits::stop() {

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -55,9 +56,10 @@ private:
 
     void read(const std::filesystem::path& file, std::optional<ReadPermission> permission);
     void note_read(const std::filesystem::path& file, Measurement content);
+    /// Beside what goes on.
+    void run(std::function<void()> work);
     SoughtNumber sought(const Range& range, const DocumentTexts::Placed& number) const;
     void work(const FitOrder& order);
-    void note_ended(const Json& message);
     Json list_message() const;
     Json state_message() const;
 

@@ -43,6 +43,8 @@ struct FitResult {
     std::optional<Posterior> posterior;
 
     std::vector<double> values() const;
+    /// What is wrong with a pair, and what helps.
+    std::string in_words(const Inseparable& pair) const;
 };
 
 /// How far a fit has come.

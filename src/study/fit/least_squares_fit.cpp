@@ -132,6 +132,11 @@ std::vector<double> FitResult::values() const {
     return values;
 }
 
+std::string FitResult::in_words(const Inseparable& pair) const {
+    return fmt::format("{} and {} cannot be told apart (correlation {:.3f}): fix one, or measure what only one changes",
+                       parameters[pair.one].name, parameters[pair.other].name, pair.correlation);
+}
+
 FitResult fit_least_squares(const FitTask& task, const LeastSquaresOptions& options, const FitProgress& progress) {
     std::vector<double> values;
     for (const Unknown& unknown : task.unknowns) values.push_back(in_bounds(unknown, unknown.start));

@@ -20,7 +20,7 @@ namespace espalier::study {
 struct FitTask {
     Growth growth;
     std::vector<Unknown> unknowns;
-    std::vector<std::shared_ptr<Target>> targets;
+    std::vector<std::shared_ptr<const Target>> targets;
 
     /// Of all targets, one after the other.
     std::vector<Statistic> statistics() const;
