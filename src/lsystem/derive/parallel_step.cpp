@@ -51,6 +51,16 @@ void place(const StepInput& input, std::vector<Chunk>& chunks, ModuleString& to)
     make_room(input, all, bytes_before(input), to, [&] { return count_uses(input, chunks); });
 }
 
+void write_chunk(const StepInput& input, const Chunk& chunk, Machine& machine, ModuleString& to) {
+    const Plans& plans = input.system.plans;
+    const bool bare = plans.all_known && !plans.valued();
+    if (bare) write_letters(input, chunk, to);
+    if (bare && !input.lineage) return;
+    const std::span<const Replacement> replacements = replacements_of(input, chunk);
+    if (!bare) write(input, chunk, replacements, machine, to);
+    if (input.lineage) write_births(input, chunk, replacements, to);
+}
+
 }  // namespace
 
 void rewrite_in_parallel(const StepInput& input, Scratch& scratch, Machines& machines, ModuleString& to) {
@@ -63,11 +73,8 @@ void rewrite_in_parallel(const StepInput& input, Scratch& scratch, Machines& mac
                        [&](Chunk& chunk, Machine& machine) { choose_replacements(input, scratch, chunk, machine); });
     }
     place(input, scratch.chunks, to);
-    for_each_chunk(scratch.chunks, machines, [&](Chunk& chunk, Machine& machine) {
-        const std::span<const Replacement> replacements = replacements_of(input, chunk);
-        write(input, chunk, replacements, machine, to);
-        if (input.lineage) write_births(input, chunk, replacements, to);
-    });
+    for_each_chunk(scratch.chunks, machines,
+                   [&](const Chunk& chunk, Machine& machine) { write_chunk(input, chunk, machine, to); });
     if (input.lineage) drop_unused_siblings(to);
 }
 

@@ -11,6 +11,9 @@ namespace espalier::lsystem {
 void write(const StepInput& input, const Chunk& chunk, std::span<const Replacement> replacements, Machine& machine,
            ModuleString& to);
 
+/// The same where letters alone decide and no module has parameters.
+void write_letters(const StepInput& input, const Chunk& chunk, ModuleString& to);
+
 /// Writes the births, and the rows of siblings.
 void write_births(const StepInput& input, const Chunk& chunk, std::span<const Replacement> replacements,
                   ModuleString& to);
