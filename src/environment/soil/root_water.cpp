@@ -4,6 +4,7 @@
 #include "espalier/environment/environment_process.h"
 
 #include "base/bytes.h"
+#include "base/parallel.h"
 #include "environment/exchange/needed_field.h"
 #include "environment/soil/grid/field.h"
 #include "environment/soil/hydraulics/heads.h"
@@ -19,7 +20,6 @@
 #include <cmath>
 #include <istream>
 #include <limits>
-#include <map>
 #include <ostream>
 #include <utility>
 
@@ -178,14 +178,15 @@ public:
         mean_demand_ = collar_.held ? 0 : collar_.mean_demand(day, days);
         const double demand = std::max(0.0, (mean_demand_ - (1 - weight) * last_demand_) / weight);
         const double held = collar_.held ? collar_.head.at(day + 0.5 * days) : 0;
-        for (std::size_t p = 0; p < roots_.size(); ++p) {
-            PlantUptake& plant = roots_[p];
-            if (shoots_[p]) {
-                shoots_[p]->set_substep(days, weight);
-                plant.solve_under(points, *shoots_[p]);
-            } else if (!shoot_) {
-                plant.solve(points, model_, collar_, feddes_, has_leaves() ? demand_of(p, weight) : demand, held);
-            }
+        for (std::size_t p = 0; p < roots_.size() && shoot_; ++p) {
+            if (!shoots_[p]) continue;
+            shoots_[p]->set_substep(days, weight);
+            roots_[p].solve_under(points, *shoots_[p]);
+        }
+        for_in_parallel(std::size_t{0}, shoot_ ? 0 : roots_.size(), [&](std::size_t p) {
+            roots_[p].solve(points, model_, collar_, feddes_, has_leaves() ? demand_of(p, weight) : demand, held);
+        });
+        for (const PlantUptake& plant : roots_) {
             const PlantRoots& roots = plant.roots();
             for (std::size_t i = 0; i < roots.pieces.size(); ++i) {
                 if (roots.cells[i] == PlantRoots::no_cell) continue;
@@ -198,17 +199,14 @@ public:
     std::vector<JointUptake> joint() const override {
         const double volume = shared_.layout().volume();
         std::vector<JointUptake> all;
-        std::vector<double> by_collar;
+        std::vector<double> by_cell;
         for (const PlantUptake& plant : roots_) {
             JointUptake joint;
-            if (!plant.answer_together(by_collar, joint.collar)) continue;
+            if (!plant.answer_together(by_cell, joint.collar)) continue;
             joint.collar /= volume;
-            std::map<std::size_t, double> by_cell;
-            for (std::size_t i = 0; i < by_collar.size(); ++i) {
-                const std::size_t cell = plant.roots().cells[i];
-                if (cell != PlantRoots::no_cell) by_cell[cell] += by_collar[i] / volume;
+            for (std::size_t k = 0; k < by_cell.size(); ++k) {
+                joint.cells.emplace_back(plant.cells()[k], by_cell[k] / volume);
             }
-            joint.cells.assign(by_cell.begin(), by_cell.end());
             all.push_back(std::move(joint));
         }
         return all;

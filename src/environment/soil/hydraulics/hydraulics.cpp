@@ -101,22 +101,46 @@ SoilPoint SoilHydraulics::nearly_full(double head) const {
             slope, full + head * (ks + 0.5 * slope * head)};
 }
 
-SoilPoint SoilHydraulics::at(double head) const {
-    if (!(head < -nodes_.front().suction)) return nearly_full(head);
+/// Between two nodes: a part t of the way.
+struct SoilHydraulics::Place {
+    const Node &a, &b;
+    double width, t;
+};
+
+SoilHydraulics::Place SoilHydraulics::place_of(double head) const {
     const double s = std::min(-head, nodes_.back().suction * (1 - 1e-15));
     const std::size_t i = Suctions::part_of(s);
     const Node &a = nodes_[i], &b = nodes_[i + 1];
-    const double width = b.suction - a.suction, t = (s - a.suction) / width;
-    const Cubic saturation = cubic(t, width, a.saturation, b.saturation, a.saturation_slope, b.saturation_slope);
+    const double width = b.suction - a.suction;
+    return {a, b, width, (s - a.suction) / width};
+}
+
+SoilFlow SoilHydraulics::flow_at(const Place& place) {
+    const auto& [a, b, width, t] = place;
     const Cubic conducts = cubic(t, width, a.conductivity, b.conductivity, a.conductivity_slope, b.conductivity_slope);
     const Cubic potential = cubic(t, width, a.potential, b.potential, -a.conductivity, -b.conductivity);
+    return {conducts.value, -conducts.slope, potential.value};
+}
+
+SoilFlow SoilHydraulics::flow_at(double head) const {
+    if (head < -nodes_.front().suction) return flow_at(place_of(head));
+    const SoilPoint point = nearly_full(head);
+    return {point.conductivity, point.slope, point.potential};
+}
+
+SoilPoint SoilHydraulics::at(double head) const {
+    if (!(head < -nodes_.front().suction)) return nearly_full(head);
+    const Place place = place_of(head);
+    const auto& [a, b, width, t] = place;
+    const Cubic saturation = cubic(t, width, a.saturation, b.saturation, a.saturation_slope, b.saturation_slope);
+    const SoilFlow flow = flow_at(place);
     const double range = soil_.saturated - soil_.residual;
     return {head,
             soil_.residual + range * saturation.value,
             -range * saturation.slope,
-            conducts.value,
-            -conducts.slope,
-            potential.value};
+            flow.conductivity,
+            flow.slope,
+            flow.potential};
 }
 
 double SoilHydraulics::head_at(double content, double guess) const {

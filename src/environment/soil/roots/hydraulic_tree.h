@@ -41,15 +41,19 @@ public:
     CollarView look(const std::vector<RootPiece>& pieces);
     /// After look(): the flow with this total head at the collar.
     void flow(const std::vector<RootPiece>& pieces, double collar_head, RootFlow& result) const;
+    /// After look(): what each piece takes up more where the collar's head falls by 1 cm, cm2/d.
+    void answer_collar(const std::vector<RootPiece>& pieces, std::vector<double>& by_collar) const;
 
 private:
     struct Port {
-        double conductance, head;  ///< of the piece and all it bears, seen from its base
-        double load, load_head;    ///< of what it bears, seen at its tip
-        double a, c;               ///< kx tau / sinh, cosh
-        double storage;            ///< kx tau sinh
-        double half;               ///< kx tau tanh of half the piece
+        double a, c;                 ///< kx tau / sinh, cosh
+        double storage;              ///< kx tau sinh
+        double half;                 ///< kx tau tanh of half the piece
+        double load, weighted_load;  ///< of what it bears, seen at its tip: conductance, and that times the head
+        double below;                ///< 1 / (a c + load)
     };
+    static Port port_of(const RootPiece& piece);
+
     std::vector<Port> ports_;
 };
 

@@ -10,18 +10,6 @@
 #include <utility>
 
 namespace espalier::environment {
-namespace {
-
-/// The flow from soil of one total head, 1 cm above that of the collar; returns the conductance of all roots.
-double flow_from_uniform_soil(std::vector<RootPiece>& pieces, HydraulicTree& tree, RootFlow& flow) {
-    for (RootPiece& piece : pieces) piece.outside = 1;
-    const double conductance = tree.look(pieces).conductance;
-    tree.flow(pieces, 0, flow);
-    return conductance;
-}
-
-}  // namespace
-
 double FeddesHeads::factor(double head) const {
     if (head >= anaerobic || head <= wilting) return 0;
     if (head > wet) return (anaerobic - head) / (anaerobic - wet);
@@ -49,12 +37,32 @@ PlantUptake::PlantUptake(PlantRoots roots, const SoilLayout& soil) : roots_(std:
     water_.by_head.assign(count, 0);
     water_.surface.assign(count, 0);
     water_.xylem.assign(count, 0);
+    find_cells();
     measure_conductance();
 }
 
+void PlantUptake::find_cells() {
+    // Pieces of one root in one voxel mostly follow one another.
+    const std::vector<std::size_t>& cells = roots_.cells;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const bool is_new = i == 0 || cells[i] != cells[i - 1];
+        if (is_new && cells[i] != PlantRoots::no_cell) cells_.push_back(cells[i]);
+    }
+    std::sort(cells_.begin(), cells_.end());
+    cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (i > 0 && cells[i] == cells[i - 1]) {
+            places_.push_back(places_.back());
+        } else {
+            const auto place = std::lower_bound(cells_.begin(), cells_.end(), cells[i]) - cells_.begin();
+            places_.push_back(static_cast<std::uint32_t>(place));
+        }
+    }
+}
+
 void PlantUptake::measure_conductance() {
-    water_.conductance = flow_from_uniform_soil(roots_.pieces, tree_, flow_);
-    water_.fractions = flow_.uptake;
+    water_.conductance = tree_.look(roots_.pieces).conductance;
+    tree_.answer_collar(roots_.pieces, water_.fractions);
     for (double& fraction : water_.fractions) fraction = water_.conductance > 0 ? fraction / water_.conductance : 0;
 }
 
@@ -104,13 +112,15 @@ void PlantUptake::solve_under(std::span<const SoilPoint> points, CollarEnd& shoo
     shoot_by_head_ = shoot.by_head();
 }
 
-bool PlantUptake::answer_together(std::vector<double>& by_collar, double& collar) const {
+bool PlantUptake::answer_together(std::vector<double>& by_cell, double& collar) const {
     if (!shoot_by_head_ || roots_.pieces.empty()) return false;
-    std::vector<RootPiece> pieces = roots_.pieces;
-    HydraulicTree tree;
-    RootFlow flow;
-    collar = flow_from_uniform_soil(pieces, tree, flow) + *shoot_by_head_;
-    by_collar = std::move(flow.uptake);
+    collar = conductance_ + *shoot_by_head_;
+    std::vector<double> by_collar;
+    tree_.answer_collar(roots_.pieces, by_collar);
+    by_cell.assign(cells_.size(), 0);
+    for (std::size_t i = 0; i < by_collar.size(); ++i) {
+        if (roots_.cells[i] != PlantRoots::no_cell) by_cell[places_[i]] += by_collar[i];
+    }
     return collar > 0;
 }
 
@@ -151,6 +161,7 @@ void PlantUptake::solve_network(std::span<const SoilPoint> points,
         });
         const CollarView view = tree_.look(roots_.pieces);
         const double head = collar_head(view);
+        conductance_ = view.conductance;
         tree_.flow(roots_.pieces, head, flow_);
         const double moved = reduce_in_parallel(all, 0.0, take, [](double a, double b) { return std::max(a, b); });
         water_.collar = head - roots_.collar_height;

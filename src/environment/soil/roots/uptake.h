@@ -52,9 +52,12 @@ public:
                const FeddesHeads& feddes, double demand, double held_head);
     /// The same with the network of roots under a shoot that takes what it needs.
     void solve_under(std::span<const SoilPoint> points, CollarEnd& shoot);
-    /// After a network was solved whose collar is not held: the change of what each piece takes with the collar's head,
-    /// cm2/d, of the sign of more water; `collar` gets that of roots and shoot together. False: the collar is held.
-    bool answer_together(std::vector<double>& by_collar, double& collar) const;
+    /// Cells that roots are in, in rising order.
+    const std::vector<std::size_t>& cells() const { return cells_; }
+    /// After a network was solved whose collar is not held: the change of what the roots in each of these cells take
+    /// with the collar's head, cm2/d, of the sign of more water; `collar` gets that of roots and shoot together. False:
+    /// the collar is held.
+    bool answer_together(std::vector<double>& by_cell, double& collar) const;
     /// So many days have passed, in which the roots took up `weight` times what was solved last and the rest times what
     /// they took up before; `before`: that of the plant, cm3/d.
     void pass(double days, double weight, double before);
@@ -69,13 +72,17 @@ private:
     void solve_macroscopic(std::span<const SoilPoint> points, UptakeModel model, const RootCollar& collar,
                            const FeddesHeads& feddes, double demand, double held_head);
     void measure_conductance();
+    void find_cells();
 
     PlantRoots roots_;
     const SoilLayout& soil_;
     std::vector<double> radial_;      ///< of the roots alone, 1/d
     std::vector<double> resistance_;  ///< radius times zone factor, cm
     std::vector<double> heights_;     ///< of the voxels' centres, cm
+    std::vector<std::size_t> cells_;
+    std::vector<std::uint32_t> places_;  ///< of each piece's cell among them
     HydraulicTree tree_;
+    double conductance_ = 0;  ///< of the roots in the soil they were solved for last, cm2/d
     RootFlow flow_;
     PlantWater water_;
     std::vector<double> rates_;            ///< at which each piece took up water last, cm3/d

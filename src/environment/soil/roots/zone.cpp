@@ -6,6 +6,12 @@
 #include <cmath>
 
 namespace espalier::environment {
+namespace {
+
+/// Relative. Newton's method squares it: what is left is below 1e-9.
+constexpr double small_step = 1e-5;
+
+}  // namespace
 
 double zone_factor(double radius, double outer_radius) {
     constexpr double mean = 0.53;
@@ -23,16 +29,19 @@ RadialFlow radial_flow(const SoilHydraulics& soil, const SoilPoint& voxel, doubl
     const double both = radial * resistance;
     double low = std::min(xylem_head, voxel.head), high = std::max(xylem_head, voxel.head);
     double head = guess > low && guess < high ? guess : voxel.head;
-    SoilPoint at = head == voxel.head ? voxel : soil.at(head);
+    SoilFlow at = soil.flow_at(head);
     for (int i = 0; i < 80; ++i) {
         const double excess = both * (head - xylem_head) + at.potential - voxel.potential;
         (excess > 0 ? high : low) = head;
-        const double next = head - excess / (both + at.conductivity);
-        // The step after one so small would change no digit that counts.
-        const bool done = std::abs(next - head) <= 1e-7 * (1 + std::abs(head)) || !(low < high);
-        head = done || (next >= low && next <= high) ? next : 0.5 * (low + high);
-        at = soil.at(head);
-        if (done) break;
+        const double step = -excess / (both + at.conductivity);
+        if (std::abs(step) <= small_step * (1 + std::abs(head)) || !(low < high)) {
+            head += step;
+            at.conductivity += at.slope * step;
+            break;
+        }
+        const double next = head + step;
+        head = next >= low && next <= high ? next : 0.5 * (low + high);
+        at = soil.flow_at(head);
     }
     const double share = at.conductivity / (both + at.conductivity);
     return {radial * (head - xylem_head), head, -radial * share,

@@ -116,6 +116,23 @@ TEST_CASE("a branched root is what a dense matrix of many small pieces has", "[e
     CHECK(std::log2(e10 / e20) == Approx(2).margin(0.1));
 }
 
+TEST_CASE("what roots take changes with the head at the collar as they say", "[environment][roots]") {
+    const std::vector<RootPiece> root = forked(6);
+    HydraulicTree tree;
+    const CollarView view = tree.look(root);
+    std::vector<double> by_collar;
+    tree.answer_collar(root, by_collar);
+    RootFlow wet, dry;
+    tree.flow(root, -1000, wet);
+    tree.flow(root, -1500, dry);
+    double sum = 0;
+    for (std::size_t i = 0; i < root.size(); ++i) {
+        CHECK(by_collar[i] == Approx((dry.uptake[i] - wet.uptake[i]) / 500).epsilon(1e-9));
+        sum += by_collar[i];
+    }
+    CHECK(sum == Approx(view.conductance).epsilon(1e-12));
+}
+
 TEST_CASE("water moves from wet to dry soil through roots that transpire nothing", "[environment][roots]") {
     const std::vector<RootPiece> root = forked(4);
     HydraulicTree tree;
