@@ -23,8 +23,8 @@ struct Siblings {
     std::uint32_t step;   ///< step of birth
     std::uint32_t depth;  ///< level of the decomposition that made them, 0: the production itself; or `axiom`
     /// With a module's place it is the module's number, once these are given (birth_numbers.h): it may be below 0,
-    /// which wraps around.
-    std::uint64_t first_number = 0;
+    /// which wraps around. It has no value of its own, so that rows that a table has room for are not touched.
+    std::uint64_t first_number;
 
     Identity identity(std::uint32_t place) const { return mix(origin() ^ place); }
     /// What the identities of all siblings are made from.

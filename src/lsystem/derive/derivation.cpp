@@ -68,7 +68,7 @@ void Derivation::State::run_axiom(ModuleString& string) {
 
 void Derivation::State::bear_axiom(ModuleString& string) const {
     string.siblings = SiblingTable().grown(1);
-    string.siblings.added(0) = {mix(0x6573'7061'6c69'6572, settings.plant), 0, Siblings::axiom};
+    string.siblings.added(0) = {mix(0x6573'7061'6c69'6572, settings.plant), 0, Siblings::axiom, 0};
     for (std::uint32_t i = 0; i < string.births.size(); ++i) string.births[i] = {0, i};
 }
 

@@ -35,7 +35,7 @@ void Expansion::evaluate(const CompiledProduction& production, const double* val
 
 void Expansion::begin_births(const CompiledProduction& production, const Lineage* strict, std::uint32_t step,
                              std::uint32_t depth) {
-    const Siblings born{strict[0].identity, step, depth};
+    const Siblings born{strict[0].identity, step, depth, 0};
     origin_ = born.origin();
     if (siblings_ && production.descent.born > 0) row_ = siblings_->add(born);
 }

@@ -68,7 +68,7 @@ bool SmallWriter::run(const Plans& plans) {
 void SmallWriter::bear(const Plan& plan, std::size_t module, Birth* births) {
     const Descent& descent = plan.production->descent;
     if (plan.bears) {
-        to_.siblings.added(row_) = {from_.identity(module), step_, 0};
+        to_.siblings.added(row_) = {from_.identity(module), step_, 0, 0};
         for (std::size_t k = 0; k < plan.length; ++k) births[k] = {row_, descent.births[k].place};
         ++row_;
     }

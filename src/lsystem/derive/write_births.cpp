@@ -74,7 +74,7 @@ void write_all(const Births& births, const Plan* plans, std::span<const Replacem
             write_in_blocks(from + in, to + out, run, plan, static_cast<std::uint32_t>(row));
         else
             write_exactly(from + in, to + out, run, plan, static_cast<std::uint32_t>(row));
-        if (plan.bears) births.to.siblings.added(row++) = {births.from.identity(module), births.step, 0};
+        if (plan.bears) births.to.siblings.added(row++) = {births.from.identity(module), births.step, 0, 0};
         in = module + plan.width;
         out += run + plan.length;
     }

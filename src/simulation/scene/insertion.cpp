@@ -157,7 +157,7 @@ void Insertions::put(const Modules& modules, std::uint64_t number, std::size_t a
     const auto row = static_cast<std::uint32_t>(string.siblings.size());
     string.siblings = string.siblings.grown(1);
     const Identity origin = mix(mix(0x696e'7365'7274, stream_), number);
-    string.siblings.added(row) = {origin, static_cast<std::uint32_t>(modules.insertion->step), Siblings::axiom};
+    string.siblings.added(row) = {origin, static_cast<std::uint32_t>(modules.insertion->step), Siblings::axiom, 0};
     std::vector<Birth> births;
     for (std::uint32_t place = 0; place < modules.letters.size(); ++place) births.push_back({row, place});
     insert_at<Birth>(string.births, at, births);
