@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { createHash } from "node:crypto";
 import { readFileSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 import { after, before, describe, test } from "node:test";
 import { grown as grownOn, openBrowser, openPage, rests, shot, told } from "./browser.mjs";
@@ -9,6 +10,7 @@ import { startProgram, workFolder } from "./program.mjs";
 
 const programPath = resolve(process.argv[2] ?? "build/release/espalier");
 const place = workFolder();
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
 /** A shoot with everything that L-studio has editors for. */
 const shoot = `#define GROWN 6   /* steps until a leaf has its size; 1..20 */
@@ -54,6 +56,13 @@ function writeObject(folder) {
   const green = [2, 0, 20, 50, 20, 60, 140, 60, 0, 0, 0, 0, 0, 0, 0];
   writeFileSync(join(folder, "shoot.mat"), new Uint8Array([...brown, ...green]));
   writeFileSync(join(folder, "matted.toml"), scene('materials = "shoot.mat"'));
+  const curve = (name, ...points) => `fver 1 1\nname: ${name}\nsamples: 0\nflip: off\npoints: ${points.length}\n${points.join("\n")}\n`;
+  const falling = curve("FALLING", "0 0.8", "0.4 0.4", "0.6 0.4", "1 0.2");
+  const steep = curve("STEEP", "0 90", "0.3 60", "0.6 40", "1 30");
+  writeFileSync(join(folder, "set.fset"), `funcgalleryver 1 1\nitems: 2\n${falling}${steep}`);
+  writeFileSync(join(folder, "swelling.func"), curve("swelling", "0 0", "0.25 0.5", "0.75 1", "1 1.5"));
+  writeFileSync(join(folder, "functions.v"), "function set: set.fset\nfunction: swelling.func\n");
+  writeFileSync(join(folder, "functions.toml"), '[simulation]\nsteps = 2\n[[plant]]\nmodel = "shoot.l"\nview = "functions.v"\n');
 }
 
 describe("editors of side files", () => {
@@ -284,5 +293,69 @@ describe("editors of side files", () => {
     assert.notEqual(await picture(), half);
     await page.selectOption("[aria-label=Field]", "");
     assert.notEqual(await picture(), half);
+  });
+
+  test("the functions of a model show in one plane, one of them is edited, and axes have numbers", async () => {
+    await open("functions.toml");
+    await tab(/set\.fset/);
+    const names = await page.locator(".function-row label").allInnerTexts();
+    assert.deepEqual(names.map((name) => name.trim().replace(/\s+/g, " ")), ["FALLING", "STEEP", "swelling swelling.func"]);
+    const ticks = (kind) => page.locator(`.point-plane .tick${kind}`).allTextContents();
+    assert.deepEqual(await ticks(".across"), ["0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+    // STEEP is of another range, and FALLING would be flat beside it.
+    assert.deepEqual(await ticks(":not(.across)"), ["0", "0.5", "1.0", "1.5"]);
+    assert.equal(await page.locator(".point-plane .curve.behind").count(), 1);
+    await page.getByLabel("Show STEEP behind").check();
+    assert.deepEqual(await ticks(":not(.across)"), ["0", "20", "40", "60", "80", "100"]);
+    await page.getByLabel("Show STEEP behind").uncheck();
+
+    const values = () => page.locator(".function-row output").allTextContents();
+    await page.locator(".point-plane .point").first().focus();
+    assert.deepEqual(await values(), ["0.8", "", "0"]);
+    const box = await page.locator(".point-plane").boundingBox();
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    const [x] = (await page.locator(".plane-place").textContent()).match(/[\d.]+/);
+    // Bernstein's polynomials of the control points; x has the four digits that show.
+    const cubic = (points, t) => points.reduce((sum, point, i) => sum + point * [1, 3, 3, 1][i] * t ** i * (1 - t) ** (3 - i), 0);
+    let t = 0.5;
+    for (let i = 0; i < 60; i++) t -= (cubic([0, 0.4, 0.6, 1], t) - Number(x)) / 1.2;
+    assert.ok(Math.abs(Number((await values())[0]) - cubic([0.8, 0.4, 0.4, 0.2], t)) < 1e-3);
+    await shot(page, "functions");
+
+    await page.locator(".point-plane .point").nth(1).focus();
+    await page.keyboard.press("ArrowRight");
+    await page.keyboard.press("ArrowUp");
+    await grown();
+    assert.match(await text(), /\n0\.41 0\.425\n/);
+    await page.getByLabel("y of the point").fill("3");
+    await page.keyboard.press("Enter");
+    await grown();
+    assert.match(await text(), /\n0\.41 3\n/);
+    assert.deepEqual(await ticks(":not(.across)"), ["0", "0.5", "1.0", "1.5", "2.0", "2.5", "3.0"]);
+
+    const radio = (name) => page.getByRole("radio", { name });
+    await radio(/swelling/).focus();
+    await page.keyboard.press("Space");
+    await page.waitForSelector(".tab[aria-selected=true]:has-text('swelling.func')");
+    assert.ok(await radio("swelling").isChecked());
+    assert.equal(await page.evaluate(() => document.activeElement.type), "radio");
+    await page.keyboard.press("ArrowUp");
+    await page.waitForSelector(".tab[aria-selected=true]:has-text('set.fset')");
+    assert.ok(await radio("STEEP").isChecked());
+    await page.locator(".point-plane .point").nth(2).focus();
+    await page.keyboard.press("Shift+ArrowDown");
+    await grown();
+    assert.match(await text(), /\n0\.6 30\n/);
+    assert.deepEqual(await nameless(), []);
+    await page.evaluate(axe);
+    for (const theme of ["dark", "light"]) {
+      await page.getByRole("button", { name: "Light or dark" }).click();
+      await page.waitForFunction((wanted) => document.documentElement.dataset.theme === wanted, theme);
+      const broken = await page.evaluate(async () =>
+        (await window.axe.run(".side-tools", { resultTypes: ["violations"] })).violations.map(({ id, nodes }) => `${id}: ${nodes[0].html}`),
+      );
+      assert.deepEqual(broken, [], theme);
+      await shot(page, `functions-${theme}`);
+    }
   });
 });
