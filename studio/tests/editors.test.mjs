@@ -56,6 +56,18 @@ function writeObject(folder) {
   const green = [2, 0, 20, 50, 20, 60, 140, 60, 0, 0, 0, 0, 0, 0, 0];
   writeFileSync(join(folder, "shoot.mat"), new Uint8Array([...brown, ...green]));
   writeFileSync(join(folder, "matted.toml"), scene('materials = "shoot.mat"'));
+  writeFileSync(
+    join(folder, "laid.l"),
+    "#define GROWN 4   /* steps until a leaf has its size; 1..20 whole */\n#define ANGLE 30  /* of leaves; 0..90; degrees */\n" +
+      "#define LENGTH 1  /* of internodes; 0.1..5; m */\n#define WIDTH 0.1 /* of internodes; 0.01..1; m */\n" +
+      "lsystem: 1\nderivation length: 4\naxiom: A\nA --> !(WIDTH) F(LENGTH) [ &(ANGLE) F(GROWN / 10) ] /(137.5) A\nendlsystem\n",
+  );
+  writeFileSync(
+    join(folder, "laid.panel"),
+    '[[panel]]\ntitle = "Internodes"\ncolumns = 2\nsettings = [\n  { name = "WIDTH", label = "Thickness" },\n' +
+      '  { name = "LENGTH", label = "Length", unit = "metres", lowest = 0.5, highest = 2, step = 0.25 },\n]\n\n' +
+      '[[panel]]\ntitle = "Leaves"\nopen = false\nsettings = ["ANGLE"]\n',
+  );
   const curve = (name, ...points) => `fver 1 1\nname: ${name}\nsamples: 0\nflip: off\npoints: ${points.length}\n${points.join("\n")}\n`;
   const falling = curve("FALLING", "0 0.8", "0.4 0.4", "0.6 0.4", "1 0.2");
   const steep = curve("STEEP", "0 90", "0.3 60", "0.6 40", "1 30");
@@ -123,6 +135,15 @@ describe("editors of side files", () => {
         )
         .map((element) => element.outerHTML.slice(0, 120)),
     );
+
+  /** Rules of axe that a part of the page breaks. */
+  const broken = async (part) => {
+    await page.evaluate(axe);
+    return page.evaluate(
+      async (where) => (await window.axe.run(where, { resultTypes: ["violations"] })).violations.map(({ id, nodes }) => `${id}: ${nodes[0].html}`),
+      part,
+    );
+  };
 
   test("a point of a surface is dragged: text and picture follow, and undo brings both back", async () => {
     await open("mapped.toml");
@@ -347,15 +368,55 @@ describe("editors of side files", () => {
     await grown();
     assert.match(await text(), /\n0\.6 30\n/);
     assert.deepEqual(await nameless(), []);
-    await page.evaluate(axe);
     for (const theme of ["dark", "light"]) {
       await page.getByRole("button", { name: "Light or dark" }).click();
       await page.waitForFunction((wanted) => document.documentElement.dataset.theme === wanted, theme);
-      const broken = await page.evaluate(async () =>
-        (await window.axe.run(".side-tools", { resultTypes: ["violations"] })).violations.map(({ id, nodes }) => `${id}: ${nodes[0].html}`),
-      );
-      assert.deepEqual(broken, [], theme);
+      assert.deepEqual(await broken(".side-tools"), [], theme);
       await shot(page, `functions-${theme}`);
     }
+  });
+
+  test("sliders stand in the panels of their author, who edits them as a text", async () => {
+    await open("laid.l");
+    await page.getByRole("tab", { name: "Settings", exact: true }).click();
+    const titles = () => page.locator(".settings summary").allInnerTexts();
+    const labels = () => page.locator(".settings .setting-head label:visible").allInnerTexts();
+    assert.deepEqual(await titles(), ["Internodes", "Leaves"]);
+    assert.deepEqual((await labels()).map((label) => label.trim()), ["Thickness", "Length"]);
+    const slider = page.getByRole("slider", { name: "Length" });
+    assert.deepEqual(await slider.evaluate(({ min, max, step, value }) => [min, max, step, value]), ["0.5", "2", "0.25", "1"]);
+    assert.equal(await page.locator(".setting:has(#setting-LENGTH) .unit").innerText(), "metres");
+    const [left, right] = await Promise.all(["WIDTH", "LENGTH"].map((name) => page.locator(`.setting:has(#setting-${name})`).boundingBox()));
+    assert.ok(left.y === right.y && right.x >= left.x + left.width, "side by side");
+    await page.getByText("Leaves", { exact: true }).click();
+    await page.getByRole("slider", { name: "Angle" }).waitFor();
+    await shot(page, "panels");
+    assert.deepEqual(await nameless(), []);
+    assert.deepEqual(await broken(".settings"), []);
+
+    await slider.focus();
+    await page.keyboard.press("ArrowRight");
+    await grown();
+    await tab(/laid\.l/);
+    assert.match(await text(), /#define LENGTH 1\.25 /);
+    await undo();
+    const all = page.getByRole("switch", { name: "All settings" });
+    await all.check();
+    assert.equal(await page.locator(".settings .setting").count(), 4);
+    assert.equal(await page.evaluate(() => document.activeElement.id), "settings-all");
+    await all.uncheck();
+    assert.equal(await page.locator(".settings .setting").count(), 3);
+
+    await tab(/laid\.panel/);
+    const words = await text();
+    await page.locator(".cm-line", { hasText: 'title = "Leaves"' }).click();
+    await page.keyboard.press("End");
+    for (let i = 0; i < 'Leaves"'.length; i++) await page.keyboard.press("Backspace");
+    await page.keyboard.type("Twigs");
+    await page.waitForFunction(() => [...document.querySelectorAll(".settings summary")].some((one) => one.textContent === "Twigs"));
+    await grown();
+    await undo();
+    assert.deepEqual(await titles(), ["Internodes", "Leaves"]);
+    assert.equal(await text(), words);
   });
 });
