@@ -412,7 +412,7 @@ describe("editors of side files", () => {
     await page.locator(".cm-line", { hasText: 'title = "Leaves"' }).click();
     await page.keyboard.press("End");
     for (let i = 0; i < 'Leaves"'.length; i++) await page.keyboard.press("Backspace");
-    await page.keyboard.type("Twigs");
+    await page.keyboard.type('Twigs"');
     await page.waitForFunction(() => [...document.querySelectorAll(".settings summary")].some((one) => one.textContent === "Twigs"));
     await grown();
     await undo();
