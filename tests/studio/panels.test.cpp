@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Catch::Contains;
-using espalier::simulation::panel_file_of;
-using espalier::simulation::read_panel_text;
+using espalier::panel_file_of;
+using espalier::read_panel_text;
 
 const char* const bare_stalk = R"(#define ANGLE 30  /* of branches; 5..80; degrees */
 #define LENGTH 1  /* of an internode */

@@ -14,20 +14,18 @@ namespace espalier::studio {
 namespace {
 
 namespace fs = std::filesystem;
-using simulation::Panel;
-using simulation::PanelSlider;
 using Numbers = std::map<std::string, DocumentTexts::Placed>;
 
 // A scene has its own; those of a model lie beside it.
 std::vector<Panel> panels_of(const DocumentTexts& texts, const DocumentState& state) {
     const fs::path& main = state.opened.path;
     const bool is_scene = main.extension() == ".toml";
-    const fs::path file = is_scene ? main : simulation::panel_file_of(main);
+    const fs::path file = is_scene ? main : panel_file_of(main);
     if (!texts.editable(state).contains(file)) return {};
     const std::string text = text_of(file, state);
     try {
-        if (!is_scene) return simulation::read_panel_text(text, file.string());
-        return simulation::read_panels(Settings::parse_toml(text, file.string(), file.parent_path()));
+        if (!is_scene) return read_panel_text(text, file.string());
+        return read_panels(Settings::parse_toml(text, file.string(), file.parent_path()));
     } catch (const UserError&) {
         return {};
     }
