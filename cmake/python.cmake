@@ -9,6 +9,7 @@ if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)
 endif()
 find_package(Python REQUIRED COMPONENTS Interpreter Development.Module)
 find_package(pybind11 2.10 CONFIG REQUIRED)
+set(ESPALIER_PYTHON_HEADERS "" CACHE PATH "headers of another Python than this one, and its pybind11: packaging/newer-python")
 
 # Where the package is installed: for the prefix /usr the folder of the system's packages, as Debian has one.
 set(ESPALIER_PYTHON_DIR "" CACHE STRING "folder of Python's modules, absolute or below the prefix; empty: Python's own")
@@ -24,6 +25,14 @@ endif()
 get_filename_component(package_folder ${site_packages}/espalier ABSOLUTE BASE_DIR ${CMAKE_INSTALL_PREFIX})
 file(RELATIVE_PATH package_to_libraries ${package_folder} ${CMAKE_INSTALL_FULL_LIBDIR})
 
+# A module asks for no library of Python: the headers decide for which one it is.
+function(compile_for_other_python target)
+  file(GLOB other LIST_DIRECTORIES ON RELATIVE ${ESPALIER_PYTHON_HEADERS}/usr/include ${ESPALIER_PYTHON_HEADERS}/usr/include/python3.*)
+  string(REPLACE "python3." "cpython-3" tag ${other})
+  target_include_directories(${target} BEFORE PRIVATE ${ESPALIER_PYTHON_HEADERS}/usr/include ${ESPALIER_PYTHON_HEADERS}/usr/include/${other})
+  set_target_properties(${target} PROPERTIES SUFFIX .${tag}-${CMAKE_LIBRARY_ARCHITECTURE}.so)
+endfunction()
+
 # Parts register themselves in tables that the libraries and the extensions share: they must be visible.
 function(add_extension name folder)
   file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp)
@@ -31,6 +40,9 @@ function(add_extension name folder)
   set_target_properties(espalier_python${name} PROPERTIES OUTPUT_NAME ${name} CXX_VISIBILITY_PRESET default
     LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/python/espalier INSTALL_RPATH $ORIGIN/${package_to_libraries})
   target_compile_options(espalier_python${name} PRIVATE -Wno-attributes)
+  if(ESPALIER_PYTHON_HEADERS)
+    compile_for_other_python(espalier_python${name})
+  endif()
   compile_lightly(espalier_python${name})
   target_include_directories(espalier_python${name} PRIVATE src)
   target_link_libraries(espalier_python${name} PRIVATE espalier_options OpenVDB::openvdb ${ARGN})

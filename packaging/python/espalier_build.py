@@ -3,7 +3,8 @@
 A wheel has the module, and below its `data` the libraries, the program, models and man pages: they are installed beside the
 module's folder of libraries, where it looks for them. Settings of pip: `--config-settings build-dir=FOLDER` (default: build/wheel),
 `--config-settings cmake=-DNAME=VALUE`, `--config-settings libraries=inside`: with all libraries that are
-none of the system's, for machines that lack them (needs patchelf).
+none of the system's, for machines that lack them (needs patchelf); `--config-settings headers=FOLDER`: for the Python whose
+headers packaging/newer-python has left there.
 """
 
 import base64
@@ -23,7 +24,6 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 VERSION = re.search(r"^project\(espalier VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text(), re.M)[1]
 COMPONENTS = ("runtime", "look", "program", "data", "python")
-MODULES = f"lib/python{sys.version_info.major}.{sys.version_info.minor}/site-packages"
 
 
 def get_requires_for_build_wheel(config_settings=None):
@@ -46,8 +46,20 @@ def metadata():
     return "\n".join(lines) + f"\nDescription-Content-Type: text/markdown\n\n{text}"
 
 
-def wheel_tag():
-    python = f"cp{sys.version_info.major}{sys.version_info.minor}"
+def python_of(settings):
+    """The version that the module is for: "3.11"."""
+    if "headers" not in settings:
+        return f"{sys.version_info.major}.{sys.version_info.minor}"
+    (headers,) = pathlib.Path(settings["headers"], "usr/include").glob("python3.*")
+    return headers.name.removeprefix("python")
+
+
+def modules_folder(settings):
+    return f"lib/python{python_of(settings)}/site-packages"
+
+
+def wheel_tag(settings):
+    python = f"cp{python_of(settings).replace('.', '')}"
     return f"{python}-{python}-{re.sub('[-.]', '_', sysconfig.get_platform())}"
 
 
@@ -57,7 +69,8 @@ def build_with_cmake(prefix, settings):
     jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL") or str(os.cpu_count())
     subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DESPALIER_UNITY=ON",
                     "-DESPALIER_TESTS=OFF", "-DESPALIER_PYTHON=ON", "-DCMAKE_INSTALL_PREFIX=/espalier-prefix",
-                    "-DCMAKE_INSTALL_LIBDIR=lib", f"-DESPALIER_PYTHON_DIR={MODULES}", f"-DPython_EXECUTABLE={sys.executable}",
+                    "-DCMAKE_INSTALL_LIBDIR=lib", f"-DESPALIER_PYTHON_DIR={modules_folder(settings)}", f"-DPython_EXECUTABLE={sys.executable}",
+                    f"-DESPALIER_PYTHON_HEADERS={settings.get('headers', '')}",
                     *([extra] if isinstance(extra, str) else extra)], check=True)
     subprocess.run(["cmake", "--build", build, "--parallel", jobs], check=True)
     for component in COMPONENTS:
@@ -68,9 +81,9 @@ def build_with_cmake(prefix, settings):
         subprocess.run([ROOT / "packaging/gather-libraries", prefix, "lib/espalier", "share/doc/espalier/licences"], check=True)
 
 
-def place_in_wheel(path, data):
+def place_in_wheel(path, data, modules):
     """The modules stand at the top of a wheel, programs among its scripts, all else below its data."""
-    for folder, place in ((MODULES, ""), ("bin", f"{data}/scripts/")):
+    for folder, place in ((modules, ""), ("bin", f"{data}/scripts/")):
         if path.startswith(folder + "/"):
             return place + path.removeprefix(folder + "/")
     return f"{data}/data/{path}"
@@ -87,10 +100,11 @@ def installed_files(prefix):
         yield path, file.resolve()
 
 
-def write_wheel(wheel, prefix):
+def write_wheel(wheel, prefix, settings):
     about, data = f"espalier-{VERSION}.dist-info", f"espalier-{VERSION}.data"
-    entries = [(place_in_wheel(path, data), file.read_bytes(), file.stat().st_mode) for path, file in installed_files(prefix)]
-    tags = f"Wheel-Version: 1.0\nGenerator: espalier_build {VERSION}\nRoot-Is-Purelib: false\nTag: {wheel_tag()}\n"
+    modules = modules_folder(settings)
+    entries = [(place_in_wheel(path, data, modules), file.read_bytes(), file.stat().st_mode) for path, file in installed_files(prefix)]
+    tags = f"Wheel-Version: 1.0\nGenerator: espalier_build {VERSION}\nRoot-Is-Purelib: false\nTag: {wheel_tag(settings)}\n"
     for name, content in (("METADATA", metadata().encode()), ("WHEEL", tags.encode()), ("LICENSE", (ROOT / "LICENSE").read_bytes())):
         entries.append((f"{about}/{name}", content, 0o100644))
     record = "".join(f"{name},sha256={base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b'=').decode()},{len(content)}\n"
@@ -104,10 +118,11 @@ def write_wheel(wheel, prefix):
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    name = f"espalier-{VERSION}-{wheel_tag()}.whl"
+    settings = config_settings or {}
+    name = f"espalier-{VERSION}-{wheel_tag(settings)}.whl"
     with tempfile.TemporaryDirectory() as folder:
-        build_with_cmake(folder, config_settings or {})
-        write_wheel(pathlib.Path(wheel_directory, name), pathlib.Path(folder))
+        build_with_cmake(folder, settings)
+        write_wheel(pathlib.Path(wheel_directory, name), pathlib.Path(folder), settings)
     return name
 
 

@@ -574,6 +574,8 @@ export interface StudioDocument {
   texts: TextFile[];
   /** numbers and switches that the texts write. */
   settings: Setting[];
+  /** how the author has laid out the settings; none: in their groups. */
+  panels: Panel[];
   /** texts in `pgraph` that can be read. */
   graphs: ComponentGraph[];
   /** control points of side files that can be read, in the order of their texts. */
@@ -630,6 +632,34 @@ export interface Setting {
   group: string;
   /** it is not as on disk. */
   changed: boolean;
+}
+
+/** a group of sliders as the author laid it out. */
+export interface Panel {
+  /** its heading. */
+  title: string;
+  /** how many sliders stand side by side where there is room; at least 1. */
+  columns: number;
+  /** it is open at first. */
+  open: boolean;
+  /** in the order of the author. */
+  sliders: Slider[];
+}
+
+/** a setting of a panel; what is null is as the setting has it. */
+export interface Slider {
+  /** of the setting. */
+  name: string;
+  /** what it is, for people. */
+  label: string | null;
+  /** empty for a pure number. */
+  unit: string | null;
+  /** left end; the number beside may be less. */
+  lowest: number | null;
+  /** right end; the number beside may be more. */
+  highest: number | null;
+  /** between two values, from the left end on. */
+  step: number | null;
 }
 
 /** a text of the language pgraph that can be read. */

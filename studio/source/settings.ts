@@ -1,13 +1,14 @@
 /** The settings of the document: sliders, switches, choices and numbers, in groups. */
 import type { Changes } from "./changes.js";
 import { decimalField, fillSlider, h, icon, iconButton, numberIn, short } from "./elements.js";
+import { asLaidOut, byHeading, type Group, type ShownSetting } from "./panels.js";
 import type { Setting, StudioDocument } from "./protocol.js";
 import type { Studio } from "./state.js";
 
 /** A row of the panel that can be brought up to date without losing the pointer that drags it. */
 interface Row {
   element: HTMLElement;
-  update: (setting: Setting) => void;
+  update: (setting: ShownSetting) => void;
 }
 
 /** The name of a setting, and what it says beside: "crown width: of the ellipsoid" has both. */
@@ -24,18 +25,18 @@ function isSwitch(setting: Setting): boolean {
 }
 
 /** The ends of a slider: those of the setting, or a span around its default. */
-export function span(setting: Setting): { lowest: number; highest: number; step: number } {
+export function span(setting: ShownSetting): { lowest: number; highest: number; step: number } {
   const usual = Number(setting.default);
   const base = Number.isFinite(usual) && usual !== 0 ? usual : setting.value || 1;
   // A place may lie on either side of the origin.
   const reach = /\bpositions?(\.\d+)?\.[xyz]$/.test(setting.name) ? Math.max(5, 2 * Math.abs(base)) : null;
   const lowest = setting.lowest ?? (reach === null ? Math.min(0, 2 * base) : -reach);
   const highest = setting.highest ?? reach ?? Math.max(lowest + 1e-9, 2 * base, 0);
-  const step = setting.whole ? 1 : 10 ** Math.floor(Math.log10((highest - lowest) / 150));
+  const step = setting.step ?? (setting.whole ? 1 : 10 ** Math.floor(Math.log10((highest - lowest) / 150)));
   return { lowest, highest, step };
 }
 
-function sliderRow(setting: Setting, send: Send): Row {
+function sliderRow(setting: ShownSetting, send: Send): Row {
   const { lowest, highest, step } = span(setting);
   const id = `setting-${setting.name}`;
   const slider = h("input", "", { type: "range", min: lowest, max: highest, step, id });
@@ -69,7 +70,7 @@ function unitOf(setting: Setting): HTMLElement {
   return h("span", "unit", {}, setting.unit);
 }
 
-function controlOf(setting: Setting, send: Send): Row {
+function controlOf(setting: ShownSetting, send: Send): Row {
   return isSwitch(setting) ? switchRow(setting, send) : sliderRow(setting, send);
 }
 
@@ -77,6 +78,8 @@ export class SettingsPanel {
   readonly element = h("div", "settings");
   private rows = new Map<string, Row>();
   private layout = "";
+  /** Whether it shows all settings of a document whose author has laid out some. */
+  private showsAll = false;
   private updateSimulation: () => void = () => undefined;
 
   constructor(
@@ -87,55 +90,78 @@ export class SettingsPanel {
     /** Called to sweep a number through a range. */
     private readonly sweep: ((setting: Setting) => void) | null = null,
   ) {
-    studio.on("document", (document) => this.show({ ...document, settings: this.choose(document) }));
+    studio.on("document", (document) => this.show(document));
   }
 
-  private choose({ settings }: StudioDocument): Setting[] {
-    if (this.chosen === null) return settings;
-    const known = this.chosen.flatMap((name) => settings.filter((setting) => setting.name === name));
+  /** As the author of the document laid them out, unless all are asked for. */
+  private groupsOf(document: StudioDocument): Group[] {
+    if (this.chosen !== null) return byHeading(this.choose(document, this.chosen));
+    return document.panels.length > 0 && !this.showsAll ? asLaidOut(document) : byHeading(document.settings);
+  }
+
+  private choose({ settings }: StudioDocument, chosen: readonly string[]): Setting[] {
+    const known = chosen.flatMap((name) => settings.filter((setting) => setting.name === name));
     const groups = new Set(known.map(({ group }) => group)).size;
     return known.map((setting) => ({ ...setting, group: "", label: groups > 1 ? `${setting.label}: ${setting.group}` : setting.label }));
   }
 
   private show(document: StudioDocument): void {
+    const groups = this.groupsOf(document);
     const layout = JSON.stringify([
       document.path,
-      document.settings.map(({ name, label, kind, lowest, highest, whole, unit, group }) => [
-        name,
-        label,
-        kind,
-        lowest,
-        highest,
-        whole,
-        unit,
-        group,
+      document.panels.length > 0,
+      groups.map(({ title, columns, open, settings }) => [
+        title,
+        columns,
+        open,
+        settings.map(({ name, label, kind, lowest, highest, step, whole, unit }) => [
+          name,
+          label,
+          kind,
+          lowest,
+          highest,
+          step,
+          whole,
+          unit,
+        ]),
       ]),
     ]);
-    if (layout !== this.layout) this.build(document);
+    if (layout !== this.layout) this.build(document, groups);
     this.layout = layout;
     this.updateSimulation();
-    for (const setting of document.settings) this.rows.get(setting.name)?.update(setting);
+    for (const setting of groups.flatMap(({ settings }) => settings)) this.rows.get(setting.name)?.update(setting);
   }
 
-  private build(document: StudioDocument): void {
+  private build(document: StudioDocument, groups: readonly Group[]): void {
     this.rows = new Map();
-    const groups = new Map<string, Setting[]>();
-    for (const setting of document.settings) groups.set(setting.group, [...(groups.get(setting.group) ?? []), setting]);
-    const parts = [...groups].map(([name, settings]) => this.group(name, settings, groups.size));
+    const parts = groups.map((group) => this.group(group, groups.length));
     if (parts.length === 0 && this.chosen === null)
       parts.push(
         h("p", "hint", {}, "This document has no settings. A line such as #define ANGLE 25 in the model becomes a slider here."),
       );
+    if (this.chosen === null && document.panels.length > 0) parts.push(this.allSwitch());
     this.element.replaceChildren(...(this.chosen === null ? [this.simulation(document)] : []), ...parts);
   }
 
-  private group(name: string, settings: Setting[], count: number): HTMLElement {
-    const rows = settings.map((setting) => this.row(setting));
-    if (count === 1 && !name) return h("section", "group", {}, ...rows);
-    return h("details", "group", { open: true }, h("summary", "", {}, name || "Settings"), ...rows);
+  /** Those that the author left out are there, too. */
+  private allSwitch(): HTMLElement {
+    const box = h("input", "switch", { type: "checkbox", role: "switch", id: "settings-all" });
+    box.checked = this.showsAll;
+    box.addEventListener("change", () => {
+      this.showsAll = box.checked;
+      if (this.studio.document) this.show(this.studio.document);
+      this.element.querySelector<HTMLElement>("#settings-all")?.focus();
+    });
+    return h("div", "settings-all", {}, h("label", "", { for: "settings-all" }, "All settings"), box);
   }
 
-  private row(setting: Setting): HTMLElement {
+  private group({ title, columns, open, settings }: Group, count: number): HTMLElement {
+    const rows = h("div", `rows columns-${columns}`, {}, ...settings.map((setting) => this.row(setting)));
+    if (count === 1 && !title) return h("section", "group", {}, rows);
+    return h("details", "group", { open }, h("summary", "", {}, title || "Settings"), rows);
+  }
+
+  private row(setting: ShownSetting): HTMLElement {
     const send: Send = (text, lasting) => {
       const change = { settings: { [setting.name]: text } };
       const label = text === null ? `Reset ${setting.label}` : `${setting.label} = ${text}`;
@@ -145,7 +171,7 @@ export class SettingsPanel {
     };
     const control = controlOf(setting, send);
     const reset = iconButton("reset", `Back to ${setting.default}`, () => send(null, true));
-    let latest = setting;
+    let latest: Setting = setting;
     const [own, more] = partsOf(setting);
     const sweep = iconButton("gallery", `Sweep ${own} …`, () => this.sweep?.(latest));
     sweep.hidden = isSwitch(setting) || this.sweep === null;

@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { createHash } from "node:crypto";
 import { readFileSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 import { after, before, describe, test } from "node:test";
 import { grown as grownOn, openBrowser, openPage, rests, shot, told } from "./browser.mjs";
@@ -9,6 +10,7 @@ import { startProgram, workFolder } from "./program.mjs";
 
 const programPath = resolve(process.argv[2] ?? "build/release/espalier");
 const place = workFolder();
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
 /** A shoot with everything that L-studio has editors for. */
 const shoot = `#define GROWN 6   /* steps until a leaf has its size; 1..20 */
@@ -54,6 +56,25 @@ function writeObject(folder) {
   const green = [2, 0, 20, 50, 20, 60, 140, 60, 0, 0, 0, 0, 0, 0, 0];
   writeFileSync(join(folder, "shoot.mat"), new Uint8Array([...brown, ...green]));
   writeFileSync(join(folder, "matted.toml"), scene('materials = "shoot.mat"'));
+  writeFileSync(
+    join(folder, "laid.l"),
+    "#define GROWN 4   /* steps until a leaf has its size; 1..20 whole */\n#define ANGLE 30  /* of leaves; 0..90; degrees */\n" +
+      "#define LENGTH 1  /* of internodes; 0.1..5; m */\n#define WIDTH 0.1 /* of internodes; 0.01..1; m */\n" +
+      "lsystem: 1\nderivation length: 4\naxiom: A\nA --> !(WIDTH) F(LENGTH) [ &(ANGLE) F(GROWN / 10) ] /(137.5) A\nendlsystem\n",
+  );
+  writeFileSync(
+    join(folder, "laid.panel"),
+    '[[panel]]\ntitle = "Internodes"\ncolumns = 2\nsettings = [\n  { name = "WIDTH", label = "Thickness" },\n' +
+      '  { name = "LENGTH", label = "Length", unit = "metres", lowest = 0.5, highest = 2, step = 0.25 },\n]\n\n' +
+      '[[panel]]\ntitle = "Leaves"\nopen = false\nsettings = ["ANGLE"]\n',
+  );
+  const curve = (name, ...points) => `fver 1 1\nname: ${name}\nsamples: 0\nflip: off\npoints: ${points.length}\n${points.join("\n")}\n`;
+  const falling = curve("FALLING", "0 0.8", "0.4 0.4", "0.6 0.4", "1 0.2");
+  const steep = curve("STEEP", "0 90", "0.3 60", "0.6 40", "1 30");
+  writeFileSync(join(folder, "set.fset"), `funcgalleryver 1 1\nitems: 2\n${falling}${steep}`);
+  writeFileSync(join(folder, "swelling.func"), curve("swelling", "0 0", "0.25 0.5", "0.75 1", "1 1.5"));
+  writeFileSync(join(folder, "functions.v"), "function set: set.fset\nfunction: swelling.func\n");
+  writeFileSync(join(folder, "functions.toml"), '[simulation]\nsteps = 2\n[[plant]]\nmodel = "shoot.l"\nview = "functions.v"\n');
 }
 
 describe("editors of side files", () => {
@@ -114,6 +135,15 @@ describe("editors of side files", () => {
         )
         .map((element) => element.outerHTML.slice(0, 120)),
     );
+
+  /** Rules of axe that a part of the page breaks. */
+  const broken = async (part) => {
+    await page.evaluate(axe);
+    return page.evaluate(
+      async (where) => (await window.axe.run(where, { resultTypes: ["violations"] })).violations.map(({ id, nodes }) => `${id}: ${nodes[0].html}`),
+      part,
+    );
+  };
 
   test("a point of a surface is dragged: text and picture follow, and undo brings both back", async () => {
     await open("mapped.toml");
@@ -284,5 +314,109 @@ describe("editors of side files", () => {
     assert.notEqual(await picture(), half);
     await page.selectOption("[aria-label=Field]", "");
     assert.notEqual(await picture(), half);
+  });
+
+  test("the functions of a model show in one plane, one of them is edited, and axes have numbers", async () => {
+    await open("functions.toml");
+    await tab(/set\.fset/);
+    const names = await page.locator(".function-row label").allInnerTexts();
+    assert.deepEqual(names.map((name) => name.trim().replace(/\s+/g, " ")), ["FALLING", "STEEP", "swelling swelling.func"]);
+    const ticks = (kind) => page.locator(`.point-plane .tick${kind}`).allTextContents();
+    assert.deepEqual(await ticks(".across"), ["0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+    // STEEP is of another range, and FALLING would be flat beside it.
+    assert.deepEqual(await ticks(":not(.across)"), ["0", "0.5", "1.0", "1.5"]);
+    assert.equal(await page.locator(".point-plane .curve.behind").count(), 1);
+    await page.getByLabel("Show STEEP behind").check();
+    assert.deepEqual(await ticks(":not(.across)"), ["0", "20", "40", "60", "80", "100"]);
+    await page.getByLabel("Show STEEP behind").uncheck();
+
+    const values = () => page.locator(".function-row output").allTextContents();
+    await page.locator(".point-plane .point").first().focus();
+    assert.deepEqual(await values(), ["0.8", "", "0"]);
+    const box = await page.locator(".point-plane").boundingBox();
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    const [x] = (await page.locator(".plane-place").textContent()).match(/[\d.]+/);
+    // Bernstein's polynomials of the control points; x has the four digits that show.
+    const cubic = (points, t) => points.reduce((sum, point, i) => sum + point * [1, 3, 3, 1][i] * t ** i * (1 - t) ** (3 - i), 0);
+    let t = 0.5;
+    for (let i = 0; i < 60; i++) t -= (cubic([0, 0.4, 0.6, 1], t) - Number(x)) / 1.2;
+    assert.ok(Math.abs(Number((await values())[0]) - cubic([0.8, 0.4, 0.4, 0.2], t)) < 1e-3);
+    await shot(page, "functions");
+
+    await page.locator(".point-plane .point").nth(1).focus();
+    await page.keyboard.press("ArrowRight");
+    await page.keyboard.press("ArrowUp");
+    await grown();
+    assert.match(await text(), /\n0\.41 0\.425\n/);
+    await page.getByLabel("y of the point").fill("3");
+    await page.keyboard.press("Enter");
+    await grown();
+    assert.match(await text(), /\n0\.41 3\n/);
+    assert.deepEqual(await ticks(":not(.across)"), ["0", "0.5", "1.0", "1.5", "2.0", "2.5", "3.0"]);
+
+    const radio = (name) => page.getByRole("radio", { name });
+    await radio(/swelling/).focus();
+    await page.keyboard.press("Space");
+    await page.waitForSelector(".tab[aria-selected=true]:has-text('swelling.func')");
+    assert.ok(await radio("swelling").isChecked());
+    assert.equal(await page.evaluate(() => document.activeElement.type), "radio");
+    await page.keyboard.press("ArrowUp");
+    await page.waitForSelector(".tab[aria-selected=true]:has-text('set.fset')");
+    assert.ok(await radio("STEEP").isChecked());
+    await page.locator(".point-plane .point").nth(2).focus();
+    await page.keyboard.press("Shift+ArrowDown");
+    await grown();
+    assert.match(await text(), /\n0\.6 30\n/);
+    assert.deepEqual(await nameless(), []);
+    for (const theme of ["dark", "light"]) {
+      await page.getByRole("button", { name: "Light or dark" }).click();
+      await page.waitForFunction((wanted) => document.documentElement.dataset.theme === wanted, theme);
+      assert.deepEqual(await broken(".side-tools"), [], theme);
+      await shot(page, `functions-${theme}`);
+    }
+  });
+
+  test("sliders stand in the panels of their author, who edits them as a text", async () => {
+    await open("laid.l");
+    await page.getByRole("tab", { name: "Settings", exact: true }).click();
+    const titles = () => page.locator(".settings summary").allInnerTexts();
+    const labels = () => page.locator(".settings .setting-head label:visible").allInnerTexts();
+    assert.deepEqual(await titles(), ["Internodes", "Leaves"]);
+    assert.deepEqual((await labels()).map((label) => label.trim()), ["Thickness", "Length"]);
+    const slider = page.getByRole("slider", { name: "Length" });
+    assert.deepEqual(await slider.evaluate(({ min, max, step, value }) => [min, max, step, value]), ["0.5", "2", "0.25", "1"]);
+    assert.equal(await page.locator(".setting:has(#setting-LENGTH) .unit").innerText(), "metres");
+    const [left, right] = await Promise.all(["WIDTH", "LENGTH"].map((name) => page.locator(`.setting:has(#setting-${name})`).boundingBox()));
+    assert.ok(left.y === right.y && right.x >= left.x + left.width, "side by side");
+    await page.getByText("Leaves", { exact: true }).click();
+    await page.getByRole("slider", { name: "Angle" }).waitFor();
+    await shot(page, "panels");
+    assert.deepEqual(await nameless(), []);
+    assert.deepEqual(await broken(".settings"), []);
+
+    await slider.focus();
+    await page.keyboard.press("ArrowRight");
+    await grown();
+    await tab(/laid\.l/);
+    assert.match(await text(), /#define LENGTH 1\.25 /);
+    await undo();
+    const all = page.getByRole("switch", { name: "All settings" });
+    await all.check();
+    assert.equal(await page.locator(".settings .setting").count(), 4);
+    assert.equal(await page.evaluate(() => document.activeElement.id), "settings-all");
+    await all.uncheck();
+    assert.equal(await page.locator(".settings .setting").count(), 3);
+
+    await tab(/laid\.panel/);
+    const words = await text();
+    await page.locator(".cm-line", { hasText: 'title = "Leaves"' }).click();
+    await page.keyboard.press("End");
+    for (let i = 0; i < 'Leaves"'.length; i++) await page.keyboard.press("Backspace");
+    await page.keyboard.type('Twigs"');
+    await page.waitForFunction(() => [...document.querySelectorAll(".settings summary")].some((one) => one.textContent === "Twigs"));
+    await grown();
+    await undo();
+    assert.deepEqual(await titles(), ["Internodes", "Leaves"]);
+    assert.equal(await text(), words);
   });
 });

@@ -32,11 +32,11 @@ async function save(name) {
   ]);
 }
 
-async function open(name) {
+async function open(name, title = name) {
   await page.getByRole("button", { name: "Gallery", exact: true }).click();
   await page.locator(".gallery .search").fill(name);
   await page.locator(`.card[title*="${name}"]`).first().click();
-  await page.waitForFunction((part) => document.title.includes(part), name);
+  await page.waitForFunction((part) => document.title.includes(part), title);
   await grown(page);
 }
 
@@ -79,6 +79,16 @@ await page
   .first()
   .click();
 await save("studio-graph.png");
+await open("language/shoot", "shoot");
+await page.getByRole("tab", { name: /shape\.fset/ }).click();
+await page.getByRole("radio", { name: "BRANCH" }).check();
+const plane = await page.locator(".point-plane").boundingBox();
+await page.mouse.move(plane.x + 0.6 * plane.width, plane.y + 0.45 * plane.height);
+await save("studio-functions.png");
+await open("trees/ternary", "ternary");
+await page.getByRole("tab", { name: "Settings", exact: true }).click();
+await page.getByRole("tab", { name: /ternary\.panel/ }).click();
+await save("studio-panels.png");
 await open("maple");
 await page.getByRole("tab", { name: /maple\.v/ }).click();
 await page.getByRole("button", { name: "Add light" }).click();

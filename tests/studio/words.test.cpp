@@ -91,6 +91,17 @@ TEST_CASE("the sliders of a scene say what the model and the documentation say o
     CHECK(described == sliders);
 }
 
+TEST_CASE("a plant without a name has the sliders of its stages", "[studio]") {
+    std::vector<std::string> names;
+    for (const WrittenNumber& number : numbers_of(fs::path(ESPALIER_SOURCE_DIR) / "environments/hedge.toml")) {
+        names.push_back(number.name);
+    }
+    for (const char* name : {"plant.0.stage.0.tip", "plant.0.stage.1.size", "environment.markers.influence"}) {
+        INFO(name);
+        CHECK(std::count(names.begin(), names.end(), name) == 1);
+    }
+}
+
 TEST_CASE("a number that replaces one of a model has its words, range and unit", "[studio]") {
     const fs::path file = fs::path(ESPALIER_SOURCE_DIR) / "environments/one-root.toml";
     const std::vector<WrittenNumber> numbers = numbers_of(file);

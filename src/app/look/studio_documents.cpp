@@ -7,6 +7,7 @@
 #include "app/model_arguments.h"
 #include "app/model_library.h"
 #include "base/folder.h"
+#include "simulation/object/panels.h"
 #include "simulation/run/named_programs.h"
 
 #include <fmt/format.h>
@@ -95,6 +96,8 @@ Scene read_opened(const studio::Opened& opened) {
     ModelArguments arguments;
     arguments.file = opened.path;
     arguments.view = view_beside(opened.path);
+    if (const fs::path panels = panel_file_of(opened.path); fs::is_regular_file(panels))
+        read_panel_text(read_text(panels), panels.string());  // it becomes a text of the document, and its mistakes known
     return scene_of_object(object_of(arguments), options);
 }
 

@@ -6,6 +6,7 @@
 #include "language/side_files/side_files.h"
 #include "simulation/object/animation_file.h"
 #include "simulation/object/environment_file.h"
+#include "simulation/object/panels.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -98,6 +99,13 @@ void check_named_by_view(const fs::path& path, Findings& findings) {
     }
 }
 
+void check_panels(const fs::path& path, Findings& findings) {
+    const std::vector<Panel> panels = read_panel_text(read_text(path), path.string());
+    std::size_t sliders = 0;
+    for (const Panel& panel : panels) sliders += panel.sliders.size();
+    findings.facts.push_back(fmt::format("{}: {} sliders in {} panels", path.string(), sliders, panels.size()));
+}
+
 using Check = void (*)(const fs::path&, Findings&);
 
 const std::map<std::string, Check>& checks() {
@@ -111,7 +119,8 @@ const std::map<std::string, Check>& checks() {
                                                   {".obj", check_named_by_view},
                                                   {".func", check_named_by_view},
                                                   {".fset", check_named_by_view},
-                                                  {".con", check_named_by_view}};
+                                                  {".con", check_named_by_view},
+                                                  {".panel", check_panels}};
     return all;
 }
 

@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "simulation/object/animation_file.h"
 #include "simulation/object/environment_file.h"
+#include "simulation/object/panels.h"
 #include "simulation/scene/expressions.h"
 #include "simulation/scene/plant_table.h"
 #include "simulation/scene/scene_keyframes.h"
@@ -144,13 +145,13 @@ void read_timeline(const Settings& table, Scene& scene) {
 }
 
 void reject_unknown_tables(const Settings& root) {
-    const std::vector<std::string> known{"simulation", "plant", "environment", "timeline", "keyframes", "fit"};
+    const std::vector<std::string> known{"simulation", "plant", "environment", "timeline", "keyframes", "fit", "panel"};
     std::vector<Diagnostic> unknown;
     for (const std::string& key : root.keys()) {
         if (std::find(known.begin(), known.end(), key) != known.end()) continue;
         unknown.push_back({Diagnostic::Severity::error, root.place(key),
                            fmt::format("'{}' means nothing here{}; a scene has [simulation], [[plant]], "
-                                       "[environment.<name>], [[keyframes]], [timeline] and [fit]",
+                                       "[environment.<name>], [[keyframes]], [timeline], [fit] and [[panel]]",
                                        key, did_you_mean(key, known))});
     }
     if (!unknown.empty()) throw UserError(unknown);
@@ -206,6 +207,7 @@ Scene read(Settings root, Scene scene, const SceneOptions& options) {
     mistakes.attempt([&] { read_environment(root.table("environment"), scene); });
     mistakes.attempt([&] { read_timeline(root.table("timeline"), scene); });
     root.table("fit").ignore();  // `espalier fit` reads it
+    mistakes.attempt([&] { read_panels(root); });  // which the studio shows
     SceneKeyframes keyframes;
     mistakes.attempt([&] { keyframes = read_scene_keyframes(root); });
     if (!keyframes.of_processes.empty()) {
@@ -340,6 +342,13 @@ const char* scene_help() {
 [fit]          what `espalier fit` finds; a run ignores it
   targets      none; files that hold what was measured: ["traits.csv"]
   parameters   none; { "KEY" = "LOW:HIGH" }: keys of this scene, each with what is known of it; see docs/fitting.md
+
+[[panel]]      sliders of the studio, as the author lays them out; a run ignores them
+  title        required; its heading
+  settings     required; ["environment.light.voxel", ...]: settings as the studio names them, or a table for each:
+               { name, label, unit, lowest, highest, step }, of which only the name is required
+  columns      1, 1 to 4; how many sliders stand side by side
+  open         true; false: closed at first
 
 influence = "= 3 * LENGTH": a text that begins with = is an expression in the #defines of a model: of its own plant in
 [[plant]] (positions, grid, turtle, stages), of the first in [simulation], [environment] and [timeline]. Flags may be 0 or 1.

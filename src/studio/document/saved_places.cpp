@@ -26,7 +26,9 @@ std::map<fs::path, fs::path> saved_places(const fs::path& main, const std::map<f
     for (const auto& [file, text] : files) {
         fs::path place = (home / file.lexically_relative(before)).lexically_normal();
         if (file == main) place = home / path.filename();
-        if (file == fs::path(main).replace_extension(".v")) place = home / path.stem().concat(".v");
+        for (const char* extension : {".v", ".panel"}) {  // these go by the name of the model
+            if (file == fs::path(main).replace_extension(extension)) place = home / path.stem().concat(extension);
+        }
         if (place != file) places[file] = place;
     }
     return places;

@@ -43,9 +43,11 @@ std::string words_of_inner_key(const std::string& key) {
         {"begin", "value at the beginning"},
         {"below", "share of the height that is cut off below"},
         {"blend", "shapes that are closer than this merge, metres"},
+        {"colour", "number of a colour of the turtle"},
         {"columns", "plants along x"},
         {"crowd", "weight of free space"},
         {"edge", "distance over which a region fades, metres"},
+        {"elasticity", "bending of a segment by a tropism"},
         {"end", "value at the end"},
         {"inhibition", "strength of a source that tips avoid"},
         {"jitter", "random shift of each plant, metres"},
@@ -71,7 +73,7 @@ std::string words_of_inner_key(const std::string& key) {
 
 std::string help_of_table(const Settings& table, const std::string& name, const std::string& outer) {
     if (table.has("process")) return help_of<ProcessType>(table.text_or("process", ""));
-    if (table.has("stage")) return help_of<GeometryStageType>(table.text_or("stage", ""));
+    if (table.is_text("stage")) return help_of<GeometryStageType>(table.text_or("stage", ""));
     const std::string help = help_of_scene_table(name);
     return help.empty() ? outer : help;
 }

@@ -136,6 +136,7 @@ private:
     // `group`: how people call the table; `help`: the documentation of its keys.
     void add(const Settings& table, const std::string& path, const std::string& group, const std::string& help) {
         for (const std::string& key : table.keys()) {
+            if (path.empty() && key == "panel") continue;  // tells of sliders, and has none
             const std::string name = path.empty() ? key : path + "." + key;
             const std::string inner = group.empty() ? key : group + ", " + key;
             if (table.is_table(key)) {
@@ -237,7 +238,7 @@ private:
     // What tells it from others of its list: its name, what stage it is, or its number; "" for the only one.
     static std::string name_of(const Settings& table, std::size_t place, std::size_t count) {
         for (const char* key : {"name", "stage"}) {
-            if (table.has(key)) return fmt::format(" {}", table.text_or(key, ""));
+            if (table.is_text(key)) return fmt::format(" {}", table.text_or(key, ""));
         }
         return count > 1 ? fmt::format(" {}", place + 1) : "";
     }

@@ -219,7 +219,9 @@ int first_difference(const std::vector<Insertion>& before, const std::vector<Ins
 bool has_same_side_files(const Origin& before, const Origin& now) {
     const auto side_files = [](const Origin& origin) {
         std::map<std::filesystem::path, std::uint64_t> digests;
-        for (const auto& [path, file] : origin.files) digests[path] = file.digest;
+        for (const auto& [path, file] : origin.files) {
+            if (path.extension() != ".panel") digests[path] = file.digest;
+        }
         if (origin.exchanges) digests.erase(std::filesystem::absolute(origin.scene.path).lexically_normal());
         for (const Plant& plant : origin.scene.plants) {
             digests.erase(std::filesystem::absolute(source_of(*plant.model).path).lexically_normal());
@@ -235,11 +237,11 @@ bool derivations_read_resources(const Scene& scene) {
     });
 }
 
-// The settings of a scene but for its stages, what is recorded, and what its models are made of: these are compared
-// themselves.
+// The settings of a scene but for its stages, what is recorded or shown of it, and what its models are made of: these
+// are compared themselves.
 std::string settings_without_stages(const Scene& scene) {
     auto settings = nlohmann::json::parse(scene.root.resolved_json());
-    settings.erase("timeline");
+    for (const char* key : {"timeline", "panel"}) settings.erase(key);
     if (settings.contains("plant")) {
         for (auto& plant : settings["plant"]) {
             for (const char* key : {"stage", "define", "model"}) plant.erase(key);

@@ -7,6 +7,7 @@
 #include "studio/protocol/view_entry.h"
 #include "studio/session/document_texts.h"
 #include "studio/session/message.h"
+#include "studio/session/panels.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -69,6 +70,7 @@ struct DocumentMessage {
     std::optional<std::string> kind;
     std::vector<ShownText> texts;
     std::vector<ShownSetting> settings;
+    std::vector<ShownPanel> panels;
     std::vector<ComponentGraph> graphs;
     std::vector<PointCurve> curves;
     std::vector<ViewEntry> view_entries;
@@ -88,6 +90,7 @@ struct DocumentMessage {
               one_of("model scene object run"));
         field("texts", self.texts, "none of a run that does not tell what it grew from");
         field("settings", self.settings, "numbers and switches that the texts write");
+        field("panels", self.panels, "how the author has laid out the settings; none: in their groups");
         field("graphs", self.graphs, "texts in `pgraph` that can be read");
         field("curves", self.curves, "control points of side files that can be read, in the order of their texts");
         field("view_entries", self.view_entries, "what view files say, setting after setting");

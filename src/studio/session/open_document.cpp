@@ -138,6 +138,10 @@ void OpenDocument::send_to(Viewer& viewer) const {
     Pages::send(viewer, problems_message());
 }
 
+bool OpenDocument::has_texts() const {
+    return is_open() && (kind_of(path()) != "run" || recorded_from_);
+}
+
 Json OpenDocument::message() const {
     DocumentMessage shown;
     shown.version = version();
@@ -149,12 +153,12 @@ Json OpenDocument::message() const {
     shown.seed = own_.seed;
     shown.steps = own_.steps;
     if (is_open()) shown.kind = kind_of(path());
-    const bool is_edited = is_open() && (*shown.kind != "run" || recorded_from_);
-    if (is_edited) {
+    if (has_texts()) {
         shown.seed = now().opened.seed.value_or(own_.seed);
         shown.steps = now().opened.steps.value_or(own_.steps);
         shown.texts = shown_texts(texts_, edited(), disputed_);
         shown.settings = shown_settings(texts_, edited());
+        shown.panels = shown_panels(texts_, edited());
         shown.graphs = shown_graphs(texts_, edited());
         shown.curves = shown_curves(texts_, edited());
         shown.view_entries = shown_view_entries(texts_, edited());
@@ -164,7 +168,11 @@ Json OpenDocument::message() const {
 
 Json OpenDocument::problems_message() const {
     Problems shown{version(), {}};
-    for (const Diagnostic& problem : problems_) {
+    std::vector<Diagnostic> problems = problems_;
+    if (has_texts()) {
+        for (Diagnostic& warning : panel_warnings(texts_, edited())) problems.push_back(std::move(warning));
+    }
+    for (const Diagnostic& problem : problems) {
         const bool is_error = problem.severity == Diagnostic::Severity::error;
         shown.problems.push_back({is_error ? "error" : "warning", problem.place.file, problem.place.line,
                                   problem.place.column, problem.message, problem.source});

@@ -78,6 +78,7 @@ public:
 
 private:
     void note_changed(const std::filesystem::path& before, std::optional<int> follow_from = {});
+    bool has_texts() const;
     Json message() const;
     Json problems_message() const;
 

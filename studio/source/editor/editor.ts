@@ -291,7 +291,8 @@ export class Editor {
     if (file) this.showText(file.path);
   }
 
-  private showText(path: string): void {
+  /** `opened`: the function of the text that is edited first, among several. */
+  private showText(path: string, opened = 0): void {
     const text = this.texts.get(path);
     if (!text || path === this.shown) return;
     if (this.shown !== null) {
@@ -306,6 +307,12 @@ export class Editor {
       content: () => this.contentOf(path),
       change: (content: string, lasting: boolean) => this.replace(path, content, lasting),
       curves: () => this.studio.document?.curves.filter((curve) => curve.path === path) ?? [],
+      functions: () => this.studio.document?.curves.filter(({ kind }) => kind === "function") ?? [],
+      opened,
+      go: (other: string, number: number) => {
+        this.showText(other, number);
+        this.side?.focus?.();
+      },
       move: (number: number, points: CurvePoint[], lasting: boolean) => this.move(path, number, points, lasting),
       viewEntries: () => this.studio.document?.view_entries.filter((entry) => entry.path === path) ?? [],
       setView: (edit: ViewEdit, lasting: boolean) => this.setView(path, edit, lasting),

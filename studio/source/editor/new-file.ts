@@ -1,6 +1,7 @@
 /** New side files: each begins with something that can be seen, and the view file names it. */
 import { openDialog } from "../dialog.js";
 import { h } from "../elements.js";
+import { panelText } from "../panels.js";
 import type { TextFile } from "../protocol.js";
 import type { Studio } from "../state.js";
 import { toBase64 } from "../view/index.js";
@@ -9,7 +10,7 @@ interface Kind {
   title: string;
   hint: string;
   extension: string;
-  content: (name: string) => string;
+  content: (name: string, studio: Studio) => string;
   /** What names it in the view file, whose text is given; "" if nothing there does. */
   line: (file: string, view: string) => string;
 }
@@ -97,6 +98,13 @@ const kinds: Kind[] = [
     content: () => "stripes = 10\nwaviness = 0.25\nroughness = 0.04\ndepth = 0.03\ndarkness = 0.55\n",
     line: (file) => `texture: F: ${file}`,
   },
+  {
+    title: "Panels",
+    hint: "the sliders as you lay them out",
+    extension: ".panel",
+    content: (_, studio) => panelText(studio.document?.settings ?? []),
+    line: () => "",
+  },
   { title: "Colour map", hint: "colours of ; and ,", extension: ".map", content: colours, line: () => "" },
   {
     title: "Materials",
@@ -109,9 +117,9 @@ const kinds: Kind[] = [
 
 /** The entries of the menu; what cannot be used here is left out. */
 export function newFileEntries(studio: Studio, holder: FileHolder): { name: string; hint: string; run: () => void }[] {
-  const hasView = viewOf(studio) !== undefined;
+  const left = new Set([...(viewOf(studio) ? [".v"] : []), ...(takesPanels(studio) ? [] : [".panel"])]);
   return kinds
-    .filter(({ extension }) => extension !== ".v" || !hasView)
+    .filter(({ extension }) => !left.has(extension))
     .map((kind) => ({ name: kind.title, hint: kind.hint, run: () => ask(studio, holder, kind) }));
 }
 
@@ -119,10 +127,15 @@ function viewOf(studio: Studio): TextFile | undefined {
   return studio.document?.texts.find(({ language }) => language === "view");
 }
 
-/** Models read the view file of their own name, and the colour map of their folder. */
+/** A scene has its panels in its own text. */
+function takesPanels({ document }: Studio): boolean {
+  return document?.kind === "model" && document.settings.length > 0 && !document.texts.some(({ path }) => path.endsWith(".panel"));
+}
+
+/** Models read the view file and the panels of their own name, and the colour map of their folder. */
 function suggestion(studio: Studio, kind: Kind): string {
   const stem = (studio.document?.name ?? "plant").replace(/\.[^.]*$/, "");
-  if (kind.extension === ".v") return stem;
+  if (kind.extension === ".v" || kind.extension === ".panel") return stem;
   if (kind.extension === ".map" && studio.document?.kind === "model") return "plants";
   const taken = new Set(studio.document?.texts.map(({ path }) => path.slice(path.lastIndexOf("/") + 1)));
   const word = kind.title.toLowerCase();
@@ -153,7 +166,7 @@ function ask(studio: Studio, holder: FileHolder, kind: Kind): void {
 }
 
 async function make(studio: Studio, holder: FileHolder, kind: Kind, file: string): Promise<void> {
-  const made = await studio.ask("new-file", { name: file, content: kind.content(file.slice(0, -kind.extension.length)) });
+  const made = await studio.ask("new-file", { name: file, content: kind.content(file.slice(0, -kind.extension.length), studio) });
   if (!made) return;
   const view = viewOf(studio);
   if (view) {
@@ -162,7 +175,7 @@ async function make(studio: Studio, holder: FileHolder, kind: Kind, file: string
     if (line) holder.replace(view.path, `${text}${text === "" || text.endsWith("\n") ? "" : "\n"}${line}\n`);
   } else if (kind.line(file, "")) {
     const name = `${suggestion(studio, viewFile)}.v`;
-    await studio.ask("new-file", { name, content: `${viewFile.content(name)}${kind.line(file, "")}\n` });
+    await studio.ask("new-file", { name, content: `${viewFile.content(name, studio)}${kind.line(file, "")}\n` });
   }
   explain(studio, kind, file);
   holder.show(made.path);

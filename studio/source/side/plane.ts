@@ -1,51 +1,46 @@
-/** A plane with a curve and points that are dragged with the pointer or moved with keys. */
-import { decimalField, h, numberIn, svg } from "../elements.js";
+/** A plane with a curve and points that are dragged with the pointer or moved with keys; other curves may show behind it. */
+import { decimalField, h, numberIn, short, svg } from "../elements.js";
 import { at } from "../lists.js";
 import type { CurvePoint, PointCurve } from "../protocol.js";
-import type { Vector } from "../view/index.js";
 import { arrowStep } from "./arrows.js";
+import { extentOf, height, PlaneView, united, width } from "./plane-view.js";
 import { curveOf } from "./spline.js";
 
-const [width, height, border] = [360, 230, 22];
-
-interface View {
-  left: number;
-  bottom: number;
-  perX: number;
-  perY: number;
+/** A curve and the class of its line. */
+export interface PlaneLine {
+  curve: PointCurve;
+  line: string;
 }
 
-function viewOf(curve: PointCurve): View {
-  const xs = curve.points.map(({ x }) => x);
-  const ys = curve.points.map(({ y }) => y);
-  const isFunction = curve.kind === "function";
-  const [left, right] = isFunction ? [0, 1] : [Math.min(0, ...xs), Math.max(0, ...xs)];
-  const [bottom, top] = [Math.min(0, ...ys), Math.max(isFunction ? 1 : 0, ...ys)];
-  let perX = (width - 2 * border) / Math.max(right - left, 1e-9);
-  let perY = (height - 2 * border) / Math.max(top - bottom, 1e-9);
-  if (curve.kind === "contour") perX = perY = 0.8 * Math.min(perX, perY);
-  return {
-    left: (left + right) / 2 - width / 2 / perX,
-    bottom: (bottom + top) / 2 - height / 2 / perY,
-    perX,
-    perY,
-  };
+interface PlaneListener {
+  changed: (points: CurvePoint[], lasting: boolean) => void;
+  /** The place that the pointer, or the point that has the focus, is at; null: none. */
+  pointed: (place: [number, number] | null) => void;
 }
+
+/** Without the last digits, which sums of steps leave. */
+const even = (value: number) => Number(value.toPrecision(10));
 
 export class PointPlane {
   readonly element: HTMLElement;
-  private readonly picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "point-plane" });
+  private readonly picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "group" });
+  private readonly cross = svg("path", { class: "cross" });
+  private readonly place = h("div", "plane-place");
   private readonly fields: Record<"x" | "y" | "z" | "times", HTMLInputElement>;
   private points: CurvePoint[];
-  private view: View;
+  private view: PlaneView;
   private chosen = 0;
 
   constructor(
     private curve: PointCurve,
-    private readonly changed: (points: CurvePoint[], lasting: boolean) => void,
+    line: string,
+    private behind: PlaneLine[],
+    private readonly listener: PlaneListener,
   ) {
     this.points = curve.points.map((point) => ({ ...point }));
-    this.view = viewOf(curve);
+    this.view = this.newView();
+    this.picture.setAttribute("class", `point-plane ${line}`);
+    this.picture.setAttribute("aria-label", `Points of ${curve.name || "the curve"}`);
     const field = (label: string) => decimalField({ "aria-label": label, title: label });
     this.fields = {
       x: field("x of the point"),
@@ -73,64 +68,76 @@ export class PointPlane {
         add,
         remove,
       ),
+      this.place,
     );
     this.picture.addEventListener("dblclick", (event) => this.addAt(event));
+    this.picture.addEventListener("pointermove", (event) => this.point(this.view.fromPicture(this.picture, event)));
+    this.picture.addEventListener("pointerleave", () => this.pointAtChosen());
     this.draw();
   }
 
-  /** Another version of the same file, unless a point is being dragged. */
-  refresh(curve: PointCurve): void {
+  /** Another version of the same file and of what shows behind, unless a point is being dragged. */
+  refresh(curve: PointCurve, behind: PlaneLine[]): void {
     if (this.picture.querySelector(".dragged")) return;
     this.curve = curve;
+    this.behind = behind;
     this.points = curve.points.map((point) => ({ ...point }));
     this.chosen = Math.min(this.chosen, this.points.length - 1);
     const hasFocus = this.picture.contains(document.activeElement);
+    this.view = this.newView();
     this.draw();
     if (hasFocus) this.focusPoint(this.chosen);
+  }
+
+  /** The curve as it lies now, also while a point is dragged. */
+  get now(): PointCurve {
+    return { ...this.curve, points: this.points };
   }
 
   private get isClosed(): boolean {
     return this.curve.spline === "closed";
   }
 
-  private toPicture(x: number, y: number): [number, number] {
-    return [(x - this.view.left) * this.view.perX, height - (y - this.view.bottom) * this.view.perY];
-  }
-
-  private fromPicture(event: MouseEvent): [number, number] {
-    const box = this.picture.getBoundingClientRect();
-    const [px, py] = [((event.clientX - box.left) / box.width) * width, ((event.clientY - box.top) / box.height) * height];
-    return [px / this.view.perX + this.view.left, (height - py) / this.view.perY + this.view.bottom];
-  }
-
-  private path(places: readonly Vector[], close: boolean): string {
-    const parts = places.map(([x, y]) =>
-      this.toPicture(x, y)
-        .map((value) => value.toFixed(2))
-        .join(" "),
-    );
-    return parts.length > 0 ? `M${parts.join("L")}${close ? "Z" : ""}` : "";
+  /** Holds all that shows, as it lies now. */
+  private newView(): PlaneView {
+    const extents = [this.now, ...this.behind.map(({ curve }) => curve)].map(extentOf);
+    return new PlaneView(united(extents), this.curve.kind !== "function");
   }
 
   private draw(): void {
-    const [zeroX, zeroY] = this.toPicture(0, 0);
-    const [oneX, oneY] = this.toPicture(1, 1);
-    const axes = svg("path", { class: "axes", d: `M0 ${zeroY}H${width}M${zeroX} 0V${height}` });
-    const unit = svg("path", { class: "unit-box", d: `M${zeroX} ${oneY}H${oneX}V${zeroY}` });
-    const frame = svg("path", {
-      class: "frame",
-      d: this.path(
-        this.points.map(({ x, y, z }) => [x, y, z]),
-        this.isClosed,
-      ),
-    });
-    const curve = svg("path", { class: "curve", d: this.path(curveOf({ ...this.curve, points: this.points }), this.isClosed) });
-    this.picture.replaceChildren(axes, unit, frame, curve, ...this.points.map((point, index) => this.handle(point, index)));
+    const { view } = this;
+    const behind = this.behind.map(({ curve, line }) =>
+      svg("path", { class: `curve behind ${line}`, d: view.path(curveOf(curve), curve.spline === "closed") }),
+    );
+    const places = view.path(
+      this.points.map(({ x, y, z }) => [x, y, z]),
+      this.isClosed,
+    );
+    const own = view.path(curveOf(this.now), this.isClosed);
+    this.picture.replaceChildren(
+      view.axes(),
+      ...behind,
+      this.cross,
+      svg("path", { class: "frame", d: places }),
+      svg("path", { class: "curve", d: own }),
+      ...this.points.map((point, index) => this.handle(point, index)),
+    );
     this.showFields();
   }
 
+  private point(place: [number, number] | null): void {
+    this.cross.setAttribute("d", place ? this.view.cross(...place) : "");
+    this.place.textContent = place ? `x ${short(place[0])}   y ${short(place[1])}` : "";
+    this.listener.pointed(place);
+  }
+
+  private pointAtChosen(): void {
+    const point = this.picture.contains(document.activeElement) ? this.points[this.chosen] : undefined;
+    this.point(point ? [point.x, point.y] : null);
+  }
+
   private handle({ x, y, times }: CurvePoint, index: number): SVGElement {
-    const [cx, cy] = this.toPicture(x, y);
+    const [cx, cy] = this.view.toPicture(x, y);
     const circle = svg("circle", {
       cx,
       cy,
@@ -138,10 +145,12 @@ export class PointPlane {
       tabindex: 0,
       role: "slider",
       "aria-label": `Point ${index + 1}`,
-      "aria-valuetext": `${x.toFixed(3)}, ${y.toFixed(3)}`,
+      "aria-valuenow": y,
+      "aria-valuetext": `${short(x)}, ${short(y)}`,
       class: `point${index === this.chosen ? " chosen" : ""}${times > 1 ? " corner" : ""}`,
     });
     circle.addEventListener("focus", () => this.choose(index));
+    circle.addEventListener("blur", () => this.point(null));
     circle.addEventListener("pointerdown", (event) => this.drag(circle, index, event));
     circle.addEventListener("keydown", (event) => this.key(event, index));
     return circle;
@@ -151,6 +160,7 @@ export class PointPlane {
     this.chosen = index;
     this.picture.querySelectorAll(".point").forEach((point, i) => point.classList.toggle("chosen", i === index));
     this.showFields();
+    this.pointAtChosen();
   }
 
   /** The picture is drawn anew while the point moves, so the moves are heard on the picture. */
@@ -163,7 +173,7 @@ export class PointPlane {
     this.picture.addEventListener(
       "pointermove",
       (move) => {
-        const [x, y] = this.fromPicture(move);
+        const [x, y] = this.view.fromPicture(this.picture, move);
         this.move(index, x, y, false);
         this.picture.querySelectorAll(".point")[index]?.classList.add("dragged");
       },
@@ -173,7 +183,7 @@ export class PointPlane {
       "pointerup",
       () => {
         stop.abort();
-        this.draw();
+        this.rest();
         this.focusPoint(index);
         this.send(true);
       },
@@ -182,14 +192,14 @@ export class PointPlane {
   }
 
   private key(event: KeyboardEvent, index: number): void {
-    const by = (event.shiftKey ? 10 : 1) / 100;
-    const step = arrowStep(event.key, by);
+    const step = arrowStep(event.key, event.shiftKey ? 10 : 1);
     if (event.key === "Delete" || event.key === "Backspace") this.remove();
     else if (event.key === "Insert") this.add();
     else if (step) {
-      const span = this.curve.kind === "function" ? 1 : width / this.view.perX / 3;
       const { x, y } = at(this.points, index);
-      this.move(index, x + step[0] * span, y - step[1] * span, true);
+      const [right, up] = this.view.steps;
+      this.move(index, even(x + step[0] * right), even(y - step[1] * up), true);
+      this.rest();
       this.focusPoint(index);
     } else return;
     event.preventDefault();
@@ -199,12 +209,18 @@ export class PointPlane {
     (this.picture.querySelectorAll(".point")[index] as SVGElement | undefined)?.focus();
   }
 
-  /** The x of a function grows from 0 to 1. */
+  /** Draws what lies outside of the axes within new ones. */
+  private rest(): void {
+    this.view = this.newView();
+    this.draw();
+  }
+
+  /** The x of a function grows from 0 to 1, or as far as the file goes beyond. */
   private move(index: number, x: number, y: number, lasting: boolean): void {
     const point = at(this.points, index);
     if (this.curve.kind === "function") {
       const [before, after] = [this.points[index - 1]?.x ?? 0, this.points[index + 1]?.x ?? 1];
-      const end = index === 0 ? 0 : index === this.points.length - 1 ? 1 : null;
+      const end = index === 0 ? Math.min(0, point.x) : index === this.points.length - 1 ? Math.max(1, point.x) : null;
       point.x = end ?? Math.min(after, Math.max(before, x));
     } else point.x = x;
     point.y = y;
@@ -222,7 +238,10 @@ export class PointPlane {
     } else if (name === "z") {
       point.z = value;
       this.send(true);
-    } else this.move(this.chosen, name === "x" ? value : point.x, name === "y" ? value : point.y, true);
+    } else {
+      this.move(this.chosen, name === "x" ? value : point.x, name === "y" ? value : point.y, true);
+      this.rest();
+    }
   }
 
   private add(): void {
@@ -232,7 +251,7 @@ export class PointPlane {
   }
 
   private addAt(event: MouseEvent): void {
-    const [x, y] = this.fromPicture(event);
+    const [x, y] = this.view.fromPicture(this.picture, event);
     if (this.curve.kind === "function") {
       const index = this.points.findIndex((point) => point.x > x);
       if (index > 0) this.insert({ x, y, z: 0, times: 1 }, index);
@@ -274,7 +293,7 @@ export class PointPlane {
   }
 
   private send(lasting: boolean): void {
-    this.changed(
+    this.listener.changed(
       this.points.map((point) => ({ ...point })),
       lasting,
     );

@@ -1,7 +1,6 @@
 /** Editors above the texts of side files: points to drag, colours, forms. */
-import { h } from "../elements.js";
-import { at } from "../lists.js";
 import type { CurvePoint, Help, PointCurve, ViewEntry, ViewRequest } from "../protocol.js";
+import { FunctionsEditor } from "./functions.js";
 import { MapEditor } from "./map.js";
 import { MaterialEditor } from "./materials.js";
 import { PointPlane } from "./plane.js";
@@ -17,6 +16,12 @@ export interface SideText {
   change: (content: string, lasting: boolean) => void;
   /** The control points that the program has read in the text. */
   curves: () => PointCurve[];
+  /** The functions of all texts. */
+  functions: () => PointCurve[];
+  /** Of the function that is edited first, among those of the text. */
+  opened: number;
+  /** Shows another text and edits a function of it. */
+  go: (path: string, number: number) => void;
   /** Gives the curve of a number other control points: the text follows. */
   move: (number: number, points: CurvePoint[], lasting: boolean) => void;
   /** The settings that the program has read in the text of a view file. */
@@ -33,36 +38,23 @@ export interface SideEditor {
   refresh?: () => void;
   /** The program has read the text anew. */
   reread?: () => void;
+  /** Puts the keyboard where the person has chosen what is edited. */
+  focus?: () => void;
 }
 
 const none: SideEditor = { elements: [] };
 
-/** Functions, contours and curves; a set of functions has a list to choose from. */
-function planeEditor(text: SideText): SideEditor {
-  const curves = text.curves();
-  const [first] = curves;
-  if (!first) return none;
-  let number = 0;
-  const make = (curve: PointCurve) => new PointPlane(curve, (points, lasting) => text.move(number, points, lasting));
-  let plane = make(first);
-  const holder = h("div", "", {}, plane.element);
-  const choice = h(
-    "select",
-    "",
-    { "aria-label": "Function" },
-    ...curves.map(({ name }, index) => h("option", "", { value: index }, name || `function ${index + 1}`)),
-  );
-  choice.addEventListener("change", () => {
-    number = choice.selectedIndex;
-    plane = make(at(text.curves(), number));
-    holder.replaceChildren(plane.element);
+/** Contours and curves. */
+function planeEditor(text: SideText, curve: PointCurve): SideEditor {
+  const plane = new PointPlane(curve, "line-1", [], {
+    changed: (points, lasting) => text.move(0, points, lasting),
+    pointed: () => undefined,
   });
-  choice.hidden = curves.length < 2;
   const reread = () => {
-    const now = text.curves()[number];
-    if (now && !text.isAhead()) plane.refresh(now);
+    const [now] = text.curves();
+    if (now && !text.isAhead()) plane.refresh(now, []);
   };
-  return { elements: [choice, holder], reread };
+  return { elements: [plane.element], reread };
 }
 
 export function sideEditor(text: SideText, help: () => Help | null): SideEditor {
@@ -70,5 +62,7 @@ export function sideEditor(text: SideText, help: () => Help | null): SideEditor 
   if (text.path.endsWith(".mat")) return new MaterialEditor(text);
   if (text.path.endsWith(".map")) return new MapEditor(text);
   if (text.path.endsWith(".s")) return new SurfaceEditor(text);
-  return planeEditor(text);
+  const [curve] = text.curves();
+  if (!curve) return none;
+  return curve.kind === "function" ? new FunctionsEditor(text) : planeEditor(text, curve);
 }

@@ -57,3 +57,11 @@ export function curveOf({ spline, points }: PointCurve): Vector[] {
   if (spline === "clamped") return clampedSpline(points);
   return spline === "other" ? [] : uniformSpline(points, spline === "closed");
 }
+
+/** y of a curve whose x grows, where it is x; its ends hold beyond them. */
+export function heightAt(curve: readonly Vector[], x: number): number {
+  const after = curve.findIndex((place) => place[0] >= x);
+  if (after <= 0) return at(curve, after < 0 ? curve.length - 1 : 0)[1];
+  const [a, b] = [at(curve, after - 1), at(curve, after)];
+  return b[0] > a[0] ? a[1] + ((x - a[0]) / (b[0] - a[0])) * (b[1] - a[1]) : b[1];
+}
