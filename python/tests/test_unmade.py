@@ -33,6 +33,8 @@ def bound_classes():
 def members(bound):
     """Names and ways to use them of all that the class defines."""
     for name, member in vars(bound).items():
+        if name.startswith("_pybind11_"):  # newer versions of pybind11 add their own
+            continue
         if isinstance(member, property):
             yield name, member.fget, ()
         elif type(member).__name__ == "instancemethod" and name != "__init__":

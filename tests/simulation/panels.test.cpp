@@ -1,8 +1,9 @@
 // Panels of sliders, as the files of their authors lay them out.
+#include "simulation/object/panels.h"
+
 #include "espalier/simulation/scene.h"
 
 #include "catch.h"
-#include "simulation/object/panels.h"
 #include "temporary_folder.h"
 
 using namespace espalier;
@@ -31,9 +32,9 @@ std::string mistake_in_panels(const std::string& text) {
 }  // namespace
 
 TEST_CASE("a panel has a title, columns, and sliders in the order of the file", "[panels]") {
-    const std::vector<Panel> panels =
-        read_panel_text(std::string(two_sliders) + "[[panel]]\ntitle = \"Rest\"\nopen = false\nsettings = [\"B\", \"A\"]\n",
-                        "tree.panel");
+    const std::vector<Panel> panels = read_panel_text(
+        std::string(two_sliders) + "[[panel]]\ntitle = \"Rest\"\nopen = false\nsettings = [\"B\", \"A\"]\n",
+        "tree.panel");
     REQUIRE(panels.size() == 2);
     CHECK((panels[0].title == "Growth" && panels[0].columns == 2 && panels[0].is_open));
     const PanelSlider& angle = panels[0].sliders.at(0);
@@ -55,8 +56,8 @@ TEST_CASE("what is wrong with a panel is told with its line", "[panels]") {
         {"[[panel]]\ntitle = \"T\"\nsettings = [\"A\"]\ncolumns = 5\n", "tree.panel:4:", "4"},
         {"[[panel]]\ntitle = \"T\"\nsettings = [{ label = \"x\" }]\n", "tree.panel:3:", "name"},
         {"[[panel]]\ntitle = \"T\"\nsettings = [{ name = \"A\", step = 0 }]\n", "tree.panel:3:", "step"},
-        {"[[panel]]\ntitle = \"T\"\nsettings = [{ name = \"A\", lowest = 2, highest = 2 }]\n", "tree.panel:3:",
-         "must be less"},
+        {"[[panel]]\ntitle = \"T\"\nsettings = [{ name = \"A\", lowest = 2, highest = 2 }]\n",
+         "tree.panel:3:", "must be less"},
         {"[[panel]]\ntitle = \"T\"\nsettings = [{ name = \"A\", lable = \"x\" }]\n", "tree.panel:3:", "label"},
         {"[[panel]]\ntitle = \"T\"\nsettings = [\"A\", \"B\",\n\"A\"]\n", "tree.panel:3:", "'A' has a slider already"},
         {"[[panels]]\ntitle = \"T\"\n", "tree.panel:1:", "panel"},

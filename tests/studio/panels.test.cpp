@@ -1,8 +1,9 @@
 // Sliders as the author of a document lays them out.
+#include "simulation/object/panels.h"
+
 #include "espalier/base/file.h"
 
 #include "session_fixture.h"
-#include "simulation/object/panels.h"
 #include "studio/document/document_files.h"
 #include "studio/document/saved_places.h"
 #include "studio/session/panels.h"
@@ -103,7 +104,8 @@ TEST_CASE("a slider beyond its setting has the ends of the setting, with a warni
 
 TEST_CASE("a scene has its panels in its own text", "[studio]") {
     OpenStudio studio(bare_stalk);
-    const std::string scene = "[[plant]]\nmodel = \"plant.l\"\n[[panel]]\ntitle = \"Both\"\nsettings = [\"plant.l:ANGLE\"]\ncolumns = 2\n";
+    const std::string scene =
+        "[[plant]]\nmodel = \"plant.l\"\n[[panel]]\ntitle = \"Both\"\nsettings = [\"plant.l:ANGLE\"]\ncolumns = 2\n";
     studio.options.opened.path = studio.folder.write("scene.toml", scene);
     studio.begin();
     studio.wait_until_grown();
@@ -124,7 +126,8 @@ TEST_CASE("the panels of the library name settings that there are", "[studio]") 
     for (const char* part : {"models", "environments"}) {
         for (const auto& entry : fs::recursive_directory_iterator(fs::path(ESPALIER_SOURCE_DIR) / part)) {
             const fs::path file = entry.path();
-            const bool is_scene = file.extension() == ".toml" && espalier::read_text(file).find("[[panel]]") != std::string::npos;
+            const bool is_scene =
+                file.extension() == ".toml" && espalier::read_text(file).find("[[panel]]") != std::string::npos;
             if (!is_scene && file.extension() != ".panel") continue;
             INFO(file);
             espalier::studio::DocumentState state;

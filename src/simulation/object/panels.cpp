@@ -44,8 +44,9 @@ std::vector<PanelSlider> read_sliders(const Settings& panel) {
         for (const Settings& slider : panel.tables("settings")) sliders.push_back(read_slider(slider));
     }
     if (sliders.empty()) {
-        throw UserError(panel.place(), "a panel names its sliders: settings = [\"NAME\", ...], or a table for each, "
-                                       "settings = [{ name = \"NAME\", step = 0.5 }, ...]");
+        throw UserError(panel.place(),
+                        "a panel names its sliders: settings = [\"NAME\", ...], or a table for each, "
+                        "settings = [{ name = \"NAME\", step = 0.5 }, ...]");
     }
     return sliders;
 }

@@ -46,7 +46,9 @@ std::string language_of(const fs::path& file) {
     if (file.extension() == ".v") return "view";
     if (const NotationType* notation = notation_of(file)) return notation->name;
     const std::string extension = file.extension().string();
-    return extension == ".l" || extension == ".h" ? "cpfg" : extension == ".toml" || extension == ".panel" ? "toml" : "plain";
+    return extension == ".l" || extension == ".h"          ? "cpfg"
+           : extension == ".toml" || extension == ".panel" ? "toml"
+                                                           : "plain";
 }
 
 std::string role_of(const fs::path& file, const fs::path& main) {

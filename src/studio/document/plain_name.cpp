@@ -23,10 +23,10 @@ constexpr std::size_t most_bytes_of_part = 128, most_parts = 8;
 
 /// Extensions of models, scenes and side files. Those of other notations register themselves.
 const std::set<std::string>& extensions() {
-    static const std::set<std::string> all{".l",   ".h",    ".inc", ".toml", ".v",    ".a",   ".e",    ".s",   ".ray",
-                                           ".bez", ".con",  ".cur", ".crv",  ".func", ".fun", ".fset", ".map", ".mat",
-                                           ".bg",  ".bark", ".panel", ".obj", ".ply",  ".stl",  ".csv", ".txt",  ".svg", ".png",
-                                           ".rgb", ".tga",  ".vdb", ".jpg",  ".jpeg", ".tif", ".tiff", ".ies", ".epw"};
+    static const std::set<std::string> all{
+        ".l",    ".h",   ".inc",  ".toml", ".v",   ".a",   ".e",    ".s",     ".ray",  ".bez", ".con", ".cur", ".crv",
+        ".func", ".fun", ".fset", ".map",  ".mat", ".bg",  ".bark", ".panel", ".obj",  ".ply", ".stl", ".csv", ".txt",
+        ".svg",  ".png", ".rgb",  ".tga",  ".vdb", ".jpg", ".jpeg", ".tif",   ".tiff", ".ies", ".epw"};
     return all;
 }
 
