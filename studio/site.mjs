@@ -14,7 +14,7 @@ import { licencesOfModule } from "./licences.mjs";
 const studio = dirname(fileURLToPath(import.meta.url));
 const repository = dirname(studio);
 const [moduleFolder, out, live, program] = process.argv.slice(2);
-const limit = 3_000_000; // bytes of the page in all, as it is sent
+const limit = 2_000_000; // bytes of the page in all, as it is sent
 
 function* filesBelow(folder) {
   for (const name of readdirSync(folder).sort()) {
