@@ -3,16 +3,13 @@ set_source_files_properties(src/geometry/grid_operations.cpp PROPERTIES COMPILE_
 target_sources(espalier_base PRIVATE web/module/toml_library.cpp web/module/no_programs.cpp)
 set(grows ${GROW_STATIONS} ${GRID_STATIONS})
 
-# What is done once a model or a message must be small, and not fast: functions are called, and not copied to where they are.
-foreach(station IN ITEMS language timeline simulation archive formats studio)
-  target_compile_options(espalier_${station} PRIVATE "SHELL:-mllvm -inline-threshold=25")
-endforeach()
-
 include(cmake/same_bytes.cmake)
-target_link_libraries(same_bytes PRIVATE ${grows})
-set_target_properties(same_bytes PROPERTIES SUFFIX .js)
-target_link_options(same_bytes PRIVATE -sNODERAWFS=1 -sENVIRONMENT=node -sEXIT_RUNTIME=1 -sALLOW_MEMORY_GROWTH=1
-  -sMAXIMUM_MEMORY=4GB -sTOTAL_STACK=8MB)
+foreach(program IN ITEMS same_bytes growth_times)
+  target_link_libraries(${program} PRIVATE ${grows})
+  set_target_properties(${program} PROPERTIES SUFFIX .js)
+  target_link_options(${program} PRIVATE -sNODERAWFS=1 -sENVIRONMENT=node -sEXIT_RUNTIME=1 -sALLOW_MEMORY_GROWTH=1
+    -sMAXIMUM_MEMORY=4GB -sTOTAL_STACK=8MB)
+endforeach()
 
 # The session of the studio, as a worker's module.
 add_executable(espalier_web web/module/session.cpp web/src/app/program_data.cpp src/app/look/studio_documents.cpp

@@ -14,7 +14,7 @@ import { licencesOfModule } from "./licences.mjs";
 const studio = dirname(fileURLToPath(import.meta.url));
 const repository = dirname(studio);
 const [moduleFolder, out, live, program] = process.argv.slice(2);
-const limit = 3_000_000; // bytes of the page in all, as it is sent
+const limit = 2_000_000; // bytes of the page in all, as it is sent
 
 function* filesBelow(folder) {
   for (const name of readdirSync(folder).sort()) {
@@ -116,7 +116,7 @@ const head = `<meta http-equiv="Content-Security-Policy" content="${policy("'sel
 const files = {
   "index.html": pageWith(head, "", { lessons: "lessons.html" }),
   "espalier.wasm.xz": module,
-  "library.pack": gzipSync(packOf(libraryFiles, [...filesBelow(gallery)]), { level: 9 }),
+  "library.pack": packedByXz(packOf(libraryFiles, [...filesBelow(gallery)])),
   "worker.js": worker,
 };
 files["LICENSES.txt"] = licences();
@@ -132,8 +132,8 @@ const inside = {
   "worker.js": gzipSync(worker, { level: 9 }),
   "LICENSES.txt": packedByXz(licences()),
 };
-writeFileSync(join(out, "espalier.html"), singleFile({ ...inside, "library.pack": gzipSync(packOf(libraryFiles), { level: 9 }) }));
-const ownGrowth = { ...inside, "library.pack": gzipSync(packOf(firstGrowth.map((name) => join(repository, name))), { level: 9 }) };
+writeFileSync(join(out, "espalier.html"), singleFile({ ...inside, "library.pack": packedByXz(packOf(libraryFiles)) }));
+const ownGrowth = { ...inside, "library.pack": packedByXz(packOf(firstGrowth.map((name) => join(repository, name)))) };
 writeFileSync(live, singleFile(ownGrowth, { open: `/library/${firstGrowth[0]}` }));
 
 let total = 0;

@@ -25,7 +25,7 @@ namespace espalier::archive {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 [[noreturn]] void fail(const fs::path& file, const std::string& what) {
     throw UserError(fmt::format("{} is damaged: {}", file.string(), what));

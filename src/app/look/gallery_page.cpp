@@ -2,14 +2,47 @@
 
 #include "espalier/base/file.h"
 
-#include <regex>
+#include <algorithm>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 namespace espalier::app {
 
+namespace {
+
+/// Reads a text from left to right, mark by mark.
+class Marks {
+public:
+    explicit Marks(std::string_view text) : rest_(text) {}
+
+    /// Goes behind the next `mark`.
+    bool find(std::string_view mark) {
+        const std::size_t at = rest_.find(mark);
+        if (at == rest_.npos) return false;
+        rest_.remove_prefix(at + mark.size());
+        return true;
+    }
+    bool accept(std::string_view mark) {
+        if (!rest_.starts_with(mark)) return false;
+        rest_.remove_prefix(mark.size());
+        return true;
+    }
+    /// What stands before the next `mark`, and that mark, which no other of its first character precedes.
+    bool take(std::string& text, std::string_view mark) {
+        const std::size_t end = std::min(rest_.find(mark.front()), rest_.size());
+        text = rest_.substr(0, end);
+        rest_.remove_prefix(end);
+        return accept(mark);
+    }
+
+private:
+    std::string_view rest_;
+};
+
+}  // namespace
+
 std::vector<GalleryEntry> gallery_of(const std::filesystem::path& data) {
-    static const std::regex cell(R"(!\[[^\]]*\]\(([^)]*)\)<br>\[\*\*([^*]*)\*\*\]\(([^)]*)\)<br>([^<]*)<br>)");
     const std::string heading = "## ";
     const std::filesystem::path page = data / "docs/gallery.md";
     std::vector<GalleryEntry> entries;
@@ -18,9 +51,14 @@ std::vector<GalleryEntry> gallery_of(const std::filesystem::path& data) {
     std::string shelf;
     for (std::string line; std::getline(in, line);) {
         if (line.starts_with(heading)) shelf = line.substr(heading.size());
-        for (std::sregex_iterator at(line.begin(), line.end(), cell), end; at != end; ++at) {
-            const auto file = [&](int group) { return (page.parent_path() / (*at)[group].str()).lexically_normal(); };
-            entries.push_back({file(3), shelf, (*at)[2], (*at)[4], file(1)});
+        Marks marks(line);
+        while (marks.find("![")) {
+            std::string alternative, picture, title, file, source;
+            if (!marks.take(alternative, "](") || !marks.take(picture, ")<br>[**") || !marks.take(title, "**](") ||
+                !marks.take(file, ")<br>") || !marks.take(source, "<br>"))
+                continue;
+            const auto beside = [&](const std::string& name) { return (page.parent_path() / name).lexically_normal(); };
+            entries.push_back({beside(file), shelf, title, source, beside(picture)});
         }
     }
     return entries;

@@ -29,7 +29,7 @@ std::set<fs::path> files_below(const fs::path& folder) {
 std::optional<std::set<fs::path>> files_before_run(const fs::path& output) {
     std::error_code error;
     if (!fs::is_regular_file(output / "run.json", error)) return std::nullopt;
-    const auto run = read_json<nlohmann::json>(read_text(output / "run.json"));
+    const auto run = read_json<nlohmann::ordered_json>(read_text(output / "run.json"));
     if (!run.is_object() || !run.contains("files_before") || !run["files_before"].is_array()) return std::nullopt;
     std::set<fs::path> files;
     for (const auto& name : run["files_before"]) {

@@ -15,12 +15,14 @@
 #include <cctype>
 #include <cstdlib>
 #include <optional>
-#include <regex>
+#include <string_view>
 
 namespace espalier::studio {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::string_view white_space = " \t\r\n\v\f";
 
 /// Where each line of a text begins.
 class Lines {
@@ -70,17 +72,76 @@ std::optional<std::size_t> place_of_value(const ModelSetting& setting, const std
     return at;
 }
 
+bool is_blank(char c) {
+    return std::isspace(static_cast<unsigned char>(c)) != 0;
+}
+
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+// What a text begins with and `fits`; goes behind it.
+std::string_view taken(std::string_view& text, bool (*fits)(char)) {
+    const auto end = std::find_if_not(text.begin(), text.end(), fits);
+    const std::string_view front = text.substr(0, static_cast<std::size_t>(end - text.begin()));
+    text.remove_prefix(front.size());
+    return front;
+}
+
+// The decimal number that a text begins with, which may be empty; goes behind it.
+std::string_view taken_number(std::string_view& text) {
+    const auto accept = [](std::string_view& rest, std::string_view characters) {
+        const bool accepted = !rest.empty() && characters.find(rest.front()) != characters.npos;
+        if (accepted) rest.remove_prefix(1);
+        return accepted;
+    };
+    std::string_view rest = text;
+    accept(rest, "+-");
+    std::size_t digits = taken(rest, is_digit).size();
+    if (accept(rest, ".")) digits += taken(rest, is_digit).size();
+    if (digits == 0) return {};
+    std::string_view exponent = rest;
+    if (accept(exponent, "eE")) {
+        accept(exponent, "+-");
+        if (!taken(exponent, is_digit).empty()) rest = exponent;
+    }
+    const std::string_view number = text.substr(0, text.size() - rest.size());
+    text = rest;
+    return number;
+}
+
+// What the comment says that is all of a text; none if the text is something else.
+std::optional<std::string_view> words_of_comment(std::string_view text) {
+    constexpr std::size_t mark = 2;
+    if (text.empty()) return text;
+    if (text.starts_with("//")) {
+        text.remove_prefix(mark);
+    } else if (text.size() >= 2 * mark && text.starts_with("/*") && text.ends_with("*/")) {
+        text = text.substr(mark, text.size() - 2 * mark);
+    } else {
+        return std::nullopt;
+    }
+    return trimmed(text, white_space);
+}
+
 // A macro that stands for a number and for nothing else, with its comment if there is one.
 std::optional<WrittenNumber> plain_definition(const std::string& text, std::size_t begin, std::size_t end) {
-    static const std::regex definition(
-        R"(^\s*#define\s+(\w+)\s+([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(?:/\*\s*(.*?)\s*\*/|//\s*(.*?))?\s*$)");
-    std::smatch match;
-    const std::string line = text.substr(begin, end - begin);
-    if (!std::regex_match(line, match, definition)) return std::nullopt;
-    WrittenNumber number{.name = match[1], .label = match[3].matched ? match[3] : match[4], .text = match[2]};
-    if (number.label.empty()) number.label = number.name;
+    constexpr std::string_view word = "#define";
+    std::string_view rest = trimmed(std::string_view(text).substr(begin, end - begin), white_space);
+    if (!rest.starts_with(word)) return std::nullopt;
+    rest.remove_prefix(word.size());
+    if (taken(rest, is_blank).empty()) return std::nullopt;
+    const std::string_view name = taken(rest, is_of_word);
+    if (name.empty() || taken(rest, is_blank).empty()) return std::nullopt;
+    const std::size_t offset = static_cast<std::size_t>(rest.data() - text.data());
+    const std::string_view value = taken_number(rest);
+    const std::optional<std::string_view> label = words_of_comment(trimmed(rest, white_space));
+    if (value.empty() || !label) return std::nullopt;
+    WrittenNumber number{.name = std::string(name),
+                         .label = std::string(label->empty() ? name : *label),
+                         .text = std::string(value),
+                         .offset = offset};
     number.value = std::strtod(number.text.c_str(), nullptr);
-    number.offset = begin + static_cast<std::size_t>(match.position(2));
     return number;
 }
 

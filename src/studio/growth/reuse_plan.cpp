@@ -17,6 +17,8 @@
 namespace espalier::studio {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 // What a derivation's memory holds of each plant is kept for every step.
 constexpr std::size_t most_plants = 256;
 
@@ -240,16 +242,16 @@ bool derivations_read_resources(const Scene& scene) {
 // The settings of a scene but for its stages, what is recorded or shown of it, and what its models are made of: these
 // are compared themselves.
 std::string settings_without_stages(const Scene& scene) {
-    auto settings = nlohmann::json::parse(scene.root.resolved_json());
+    auto settings = Json::parse(scene.root.resolved_json());
     for (const char* key : {"timeline", "panel"}) settings.erase(key);
     if (settings.contains("plant")) {
         for (auto& plant : settings["plant"]) {
             for (const char* key : {"stage", "define", "model"}) plant.erase(key);
         }
     }
-    auto processes = nlohmann::json::array();
+    auto processes = Json::array();
     for (const auto& [name, table] : scene.environment.processes) {
-        processes.push_back({name, nlohmann::json::parse(table.resolved_json())});
+        processes.push_back({name, Json::parse(table.resolved_json())});
     }
     return settings.dump() + processes.dump();
 }

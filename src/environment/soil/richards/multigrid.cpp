@@ -1,5 +1,7 @@
 #include "environment/soil/richards/multigrid.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 
 namespace espalier::environment {

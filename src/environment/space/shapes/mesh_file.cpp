@@ -99,13 +99,13 @@ public:
 private:
     struct Hash {
         std::size_t operator()(const glm::dvec3& point) const {
-            std::size_t hash = 0;
+            std::uint64_t hash = 0;
             for (int axis = 0; axis < 3; ++axis) {
                 const auto bits = std::bit_cast<std::uint64_t>(point[axis] + 0.0);  // -0 is 0
                 hash = (hash ^ bits) * 0x9E3779B97F4A7C15u;
                 hash ^= hash >> 32;
             }
-            return hash;
+            return static_cast<std::size_t>(hash);
         }
     };
 
