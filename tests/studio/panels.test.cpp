@@ -14,8 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Catch::Contains;
-using espalier::panel_file_of;
-using espalier::read_panel_text;
 
 const char* const bare_stalk = R"(#define ANGLE 30  /* of branches; 5..80; degrees */
 #define LENGTH 1  /* of an internode */
@@ -36,9 +34,10 @@ settings = [
 
 /// Reads what lies beside a model, as the program does.
 espalier::Scene read_with_panels(const espalier::studio::Opened& opened) {
-    const fs::path file = panel_file_of(opened.path);
-    if (fs::exists(file)) read_panel_text(espalier::read_text(file), file.string());
-    return read_as_run(opened);
+    espalier::Scene scene = read_as_run(opened);
+    for (espalier::Diagnostic& mistake : espalier::mistakes_in_panels_of(opened.path))
+        scene.notes.diagnostics.push_back(std::move(mistake));
+    return scene;
 }
 
 struct Laid : OpenStudio {
@@ -85,10 +84,12 @@ TEST_CASE("panels are edited as other texts are, undone, and nothing grows anew 
 TEST_CASE("a mistake in panels is told at its place, and the plant stays", "[studio]") {
     Laid studio;
     studio.write("[[panel]]\ntitle = \"One\"\n");
+    studio.wait_until_grown();
     studio.wait([&] { return !studio.problems().empty(); });
     const Json problem = studio.problems().at(0);
     CHECK((problem["severity"] == "error" && problem["file"] == studio.file.string() && problem["line"] == 1));
     CHECK(studio.shown().empty());
+    CHECK(studio.page.last("growth")["state"] == "done");
     studio.write("[[panel]]\ntitle = \"One\"\nsettings = [\n\"ANGEL\", \"LENGTH\"]\n");
     studio.wait_until_grown();
     studio.wait([&] { return studio.problems().size() == 1 && studio.problems().at(0)["severity"] == "warning"; });

@@ -96,9 +96,11 @@ Scene read_opened(const studio::Opened& opened) {
     ModelArguments arguments;
     arguments.file = opened.path;
     arguments.view = view_beside(opened.path);
-    if (const fs::path panels = panel_file_of(opened.path); fs::is_regular_file(panels))
-        read_panel_text(read_text(panels), panels.string());  // it becomes a text of the document, and its mistakes known
-    return scene_of_object(object_of(arguments), options);
+    Scene scene = scene_of_object(object_of(arguments), options);
+    // To read them makes them a text of the document.
+    for (Diagnostic& mistake : mistakes_in_panels_of(opened.path))
+        scene.notes.diagnostics.push_back(std::move(mistake));
+    return scene;
 }
 
 void require_no_programs(const Scene& scene) {

@@ -1,5 +1,7 @@
 #include "simulation/object/panels.h"
 
+#include "espalier/base/file.h"
+
 #include <fmt/format.h>
 
 #include <set>
@@ -84,6 +86,17 @@ std::vector<Panel> read_panel_text(const std::string& text, const std::string& n
 
 std::filesystem::path panel_file_of(const std::filesystem::path& model) {
     return std::filesystem::path(model).replace_extension(".panel");
+}
+
+std::vector<Diagnostic> mistakes_in_panels_of(const std::filesystem::path& model) {
+    const std::filesystem::path file = panel_file_of(model);
+    if (!std::filesystem::is_regular_file(file)) return {};
+    try {
+        read_panel_text(read_text(file), file.string());
+    } catch (const UserError& error) {
+        return error.diagnostics();
+    }
+    return {};
 }
 
 }  // namespace espalier::simulation

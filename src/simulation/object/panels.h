@@ -34,5 +34,7 @@ std::vector<Panel> read_panel_text(const std::string& text, const std::string& n
 
 /// The file that lays out the settings of a model: it lies beside it under the model's name.
 std::filesystem::path panel_file_of(const std::filesystem::path& model);
+/// What is wrong with that file; nothing if there is none. It is no reason not to grow the model.
+std::vector<Diagnostic> mistakes_in_panels_of(const std::filesystem::path& model);
 
 }  // namespace espalier::simulation
