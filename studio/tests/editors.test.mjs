@@ -418,5 +418,13 @@ describe("editors of side files", () => {
     await undo();
     assert.deepEqual(await titles(), ["Internodes", "Leaves"]);
     assert.equal(await text(), words);
+
+    await open("shoot.l");
+    await page.getByRole("button", { name: /^New side file/ }).click();
+    await page.getByRole("menuitem", { name: /^Panels/ }).click();
+    await page.keyboard.press("Enter");
+    await page.waitForSelector(".tab[aria-selected=true]:has-text('shoot.panel')");
+    assert.match(await text(), /{ name = "GROWN", label = "grown: steps until a leaf has its size", lowest = 1, highest = 20 }/);
+    await page.getByRole("switch", { name: "All settings" }).waitFor();
   });
 });

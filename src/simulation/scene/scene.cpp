@@ -206,7 +206,7 @@ Scene read(Settings root, Scene scene, const SceneOptions& options) {
     mistakes.attempt([&] { read_simulation(root.table("simulation"), scene); });
     mistakes.attempt([&] { read_environment(root.table("environment"), scene); });
     mistakes.attempt([&] { read_timeline(root.table("timeline"), scene); });
-    root.table("fit").ignore();  // `espalier fit` reads it
+    root.table("fit").ignore();                    // `espalier fit` reads it
     mistakes.attempt([&] { read_panels(root); });  // which the studio shows
     SceneKeyframes keyframes;
     mistakes.attempt([&] { keyframes = read_scene_keyframes(root); });
