@@ -107,6 +107,7 @@ void print_left_out() {
 int run(const Arguments& arguments) {
     const std::vector<const Row*> chosen = chosen_rows(arguments.rows);
     if (chosen.empty()) {
+        print_left_out();
         fmt::print(stderr, "no row of the table matches; --list shows them all\n");
         return 2;
     }

@@ -4,13 +4,13 @@
 // package's folder, and OUT.tgz the file that npm installs.
 import { execFileSync } from "node:child_process";
 import { copyFileSync, cpSync, mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
-import { dirname, join } from "node:path";
+import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { licencesOfModule } from "../studio/licences.mjs";
 
 const npm = dirname(fileURLToPath(import.meta.url));
 const repository = dirname(npm);
-const [moduleFolder, out] = process.argv.slice(2);
+const [moduleFolder, out] = process.argv.slice(2).map((path) => resolve(path));
 const given = ["environments/lone-tree.toml", "environments/two-trees.toml", "models/light/competing-tree.l", "models/plants.map"];
 
 rmSync(out, { recursive: true, force: true });

@@ -111,13 +111,13 @@ endlsystem
 
 TEST_CASE("macros of plain numbers have the labels of their comments", "[studio]") {
     const std::string model =
-        "#define A 2.\t/* a */ b */\r\n  #define\tB  +.5E-2//half\n#define C 3 // \n#define D 4/**/\n"
-        "#define E 1e\n#define F 1 /*/\n#define G .\n#define H 5m\n#defineI 1\n#define J-1\n"
+        "#define A 2.\t/* a */\r\n  #define\tB  +.5E-2//half\n#define C 3 // \n#define D 4/**/\n"
+        "#define E 1e\n#define F 1 + /* sum */ 2\n#define G .\n#define H 5m\n"
         "lsystem: 1\naxiom: F(A+B+C+D)\nendlsystem\n";
     const std::vector<WrittenNumber> numbers = written_numbers("a.l", model);
     std::vector<std::string> labels;
     for (const WrittenNumber& number : numbers) labels.push_back(number.name + "=" + number.text + " " + number.label);
-    CHECK(labels == std::vector<std::string>{"A=2. a */ b", "B=+.5E-2 half", "C=3 C", "D=4 D"});
+    CHECK(labels == std::vector<std::string>{"A=2. a", "B=+.5E-2 half", "C=3 C", "D=4 D"});
     REQUIRE(numbers.size() == 4);
     CHECK(numbers[1].value == 0.005);
     CHECK(numbers[1].offset == model.find("+.5E-2"));

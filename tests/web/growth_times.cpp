@@ -2,7 +2,7 @@
 // machine and for pages, its lines are what bench/web.bench.cpp compares.
 //
 //     growth_times derive|grow STEPS TIMES FILE     a line a growth, the first of which meets cold code: milliseconds
-//     of all threads. `derive` leaves out all but the string; `grow` begins with reading the file.
+//     of all threads. `derive` is the string alone; `grow` begins with reading the file.
 #include "espalier/lsystem/derivation.h"
 #include "espalier/simulation/world.h"
 
@@ -36,16 +36,27 @@ static double processor_milliseconds() {
 namespace espalier {
 namespace {
 
-void derive(const std::filesystem::path& file, int steps) {
-    Derivation derivation(plant_of_file(file, {}).model, {});
-    derivation.set_length(steps);
-    ModuleString now, next;
-    derivation.start(now);
-    while (derivation.steps_done() < steps) {
-        derivation.step(now, next);
-        std::swap(now, next);
+/// Again and again in the memory of the time before.
+class Deriving {
+public:
+    Deriving(const std::filesystem::path& file, int steps)
+        : derivation_(plant_of_file(file, {}).model, {}), steps_(steps) {
+        derivation_.set_length(steps);
     }
-}
+
+    void run() {
+        derivation_.start(now_);
+        for (int step = 0; step < steps_; ++step) {
+            derivation_.step(now_, next_);
+            std::swap(now_, next_);
+        }
+    }
+
+private:
+    Derivation derivation_;
+    int steps_;
+    ModuleString now_, next_;
+};
 
 void grow(const std::filesystem::path& file, int steps) {
     World world(app::read_opened({file, {}, {}}), {});
@@ -53,17 +64,21 @@ void grow(const std::filesystem::path& file, int steps) {
     while (world.steps_done() < steps && !world.at_end()) world.step();
 }
 
-int print_times(bool derives, int steps, int times, const std::filesystem::path& file) {
+void print_times(int times, const auto& work) {
     for (int i = 0; i < times; ++i) {
         const double begin = processor_milliseconds();
-        if (derives) {
-            derive(file, steps);
-        } else {
-            grow(file, steps);
-        }
+        work();
         fmt::print("{:.3f}\n", processor_milliseconds() - begin);
     }
-    return 0;
+}
+
+void run(std::string_view what, int steps, int times, const std::filesystem::path& file) {
+    if (what == "derive") {
+        Deriving deriving(file, steps);
+        print_times(times, [&] { deriving.run(); });
+    } else {
+        print_times(times, [&] { grow(file, steps); });
+    }
 }
 
 }  // namespace
@@ -73,8 +88,9 @@ int main(int count, char** words) {
     const std::span arguments(words, static_cast<std::size_t>(count));
     if (count != 5) return 1;
     try {
-        return espalier::print_times(arguments[1] == std::string_view("derive"), std::atoi(arguments[2]),
-                                     std::atoi(arguments[3]), std::filesystem::absolute(arguments[4]));
+        espalier::run(arguments[1], std::atoi(arguments[2]), std::atoi(arguments[3]),
+                      std::filesystem::absolute(arguments[4]));
+        return 0;
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", espalier::reason_of(error));
         return 1;
