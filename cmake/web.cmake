@@ -34,7 +34,7 @@ add_compile_definitions(FMT_HEADER_ONLY)
 add_compile_options("SHELL:-include ${web}/include/web_gaps.h" -fwasm-exceptions)
 add_link_options(-fwasm-exceptions)
 
-# What is done once a model or a message must be small, and not fast. The linker sees all of it at once: a third less is
+# What is done once a model or a message must be small, and not fast. The linker sees all of it at once: a fifth less is
 # sent. With -Oz alone, emscripten would leave all that is to be inlined to a pass that knows less.
 add_compile_options(-Oz -finline-functions -flto -mnontrapping-fptoint -msign-ext)
 add_link_options(-flto)
