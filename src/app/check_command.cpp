@@ -6,6 +6,7 @@
 #include "command.h"
 #include "model_library.h"
 #include "options.h"
+#include "simulation/object/panels.h"
 #include "simulation/object/side_file_check.h"
 #include "temporary_folder.h"
 
@@ -194,6 +195,21 @@ private:
 
 Findings findings_of(const CheckArguments& arguments);
 
+void add(const UserError& error, Findings& findings) {
+    findings.diagnostics.insert(findings.diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
+}
+
+// A model grows in spite of mistakes in the panels beside it.
+void review_panels(const fs::path& model, Findings& findings) {
+    const fs::path panels = simulation::panel_file_of(model);
+    if (!fs::is_regular_file(model) || !fs::is_regular_file(panels)) return;
+    try {
+        check_side_file(panels, findings);
+    } catch (const UserError& error) {
+        add(error, findings);
+    }
+}
+
 // A model is read with the view file beside it. What is wrong with one file does not keep the others from being read.
 void review_collection(Collection& collection, const CheckArguments& arguments, Findings& findings) {
     const std::vector<fs::path> members = collection.members();
@@ -208,8 +224,7 @@ void review_collection(Collection& collection, const CheckArguments& arguments, 
                                         of_one.diagnostics.end());
             findings.facts.insert(findings.facts.end(), of_one.facts.begin(), of_one.facts.end());
         } catch (const UserError& error) {
-            findings.diagnostics.insert(findings.diagnostics.end(), error.diagnostics().begin(),
-                                        error.diagnostics().end());
+            add(error, findings);
         }
     }
     findings.facts.push_back(
@@ -230,6 +245,7 @@ Findings findings_of(const CheckArguments& arguments) {
         check_side_file(arguments.model.file, findings);
     } else {
         review_object(arguments, findings);
+        review_panels(arguments.model.file, findings);
     }
     remove_repeated(findings);
     return findings;

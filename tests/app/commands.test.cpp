@@ -313,6 +313,16 @@ TEST_CASE_METHOD(Workplace, "check looks through a folder of models, but not thr
     CHECK_THAT(many.err, Contains("more than 20000 files and folders lie below ."));
 }
 
+TEST_CASE_METHOD(Workplace, "check reads the panels beside a model", "[app]") {
+    write("a.l", models::bush);
+    write("a.panel", "[[panel]]\ntitle = 'All'\nsettings = ['ANGLE']\n");
+    CHECK_THAT(run("check a.l").out, Contains("a.panel: 1 slider in 1 panel"));
+    write("a.panel", "[[panel]]\ntitle = 'All'\nsettings = []\n");
+    const Outcome outcome = run("check a.l");
+    CHECK(outcome.code == 1);
+    CHECK_THAT(outcome.err, Contains("a.panel:1:1: error: a panel names its sliders"));
+}
+
 TEST_CASE_METHOD(Workplace, "checking a scene grows nothing and leaves nothing", "[app]") {
     write("bush.l", models::bush);
     write("scene.toml", "[[plant]]\nmodel = 'bush.l'\n[environment.light]\nprocess = 'voxel-shade'\nvoxel = 0.5\n");

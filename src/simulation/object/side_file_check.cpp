@@ -103,7 +103,8 @@ void check_panels(const fs::path& path, Findings& findings) {
     const std::vector<Panel> panels = read_panel_text(read_text(path), path.string());
     std::size_t sliders = 0;
     for (const Panel& panel : panels) sliders += panel.sliders.size();
-    findings.facts.push_back(fmt::format("{}: {} sliders in {} panels", path.string(), sliders, panels.size()));
+    findings.facts.push_back(fmt::format("{}: {} slider{} in {} panel{}", path.string(), sliders,
+                                         sliders == 1 ? "" : "s", panels.size(), panels.size() == 1 ? "" : "s"));
 }
 
 using Check = void (*)(const fs::path&, Findings&);
