@@ -1,5 +1,7 @@
 #include "espalier/lsystem/lineage.h"
 
+#include "espalier/base/stop.h"
+
 #include <algorithm>
 
 namespace espalier::lsystem {
@@ -11,6 +13,15 @@ std::size_t room_for(std::size_t rows) {
     constexpr std::size_t few = 4096, many = 1'500'000;
     const std::size_t grown = rows + rows / 2;
     return rows < few ? grown : std::max(grown, std::min(4 * rows, many));
+}
+
+/// Part by part, so that it can be stopped: tens of millions of rows take a moment.
+void copy_rows(const Column<Siblings>& from, std::size_t rows, Column<Siblings>& to) {
+    constexpr std::size_t part = std::size_t{1} << 16;
+    for (std::size_t begin = 0; begin < rows; begin += part) {
+        end_if_asked();
+        std::copy_n(from.data() + begin, std::min(part, rows - begin), to.data() + begin);
+    }
 }
 
 }  // namespace
@@ -25,7 +36,7 @@ SiblingTable SiblingTable::grown(std::size_t more) const {
     if (has_room && memory_->used.compare_exchange_strong(used, table.size_)) return table;
     table.memory_ = std::make_shared<Memory>(room_for(table.size_));
     table.memory_->used = table.size_;
-    if (size_ > 0) std::copy_n(memory_->rows.data(), size_, table.memory_->rows.data());
+    if (size_ > 0) copy_rows(memory_->rows, size_, table.memory_->rows);
     return table;
 }
 
