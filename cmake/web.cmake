@@ -41,7 +41,8 @@ add_link_options(-flto)
 # Fast, and not small: what is done for every module, leaf or voxel.
 set(fast "^base/(math|number|random|sobol)" "^lsystem/" "^turtle/walk/" "^environment/light/(canopy|shade)/"
   "^environment/soil/(grid|linear|richards|solutes)/" "^environment/leaf/(gas|leaves)/"
-  "^environment/space/(markers|neighbours)/" "^geometry/grids/")
+  "^environment/(exchange|space/(markers|neighbours))/" "^geometry/grids/" "^studio/packets/" "^timeline/frames/"
+  "^turtle/symbols/")
 list(JOIN fast "|" fast)
 
 # What pages do without: files of OpenVDB, functions for other processors, the server and recorded runs. Of the half that

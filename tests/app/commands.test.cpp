@@ -320,7 +320,7 @@ TEST_CASE_METHOD(Workplace, "check reads the panels beside a model", "[app]") {
     write("a.panel", "[[panel]]\ntitle = 'All'\nsettings = []\n");
     const Outcome outcome = run("check a.l");
     CHECK(outcome.code == 1);
-    CHECK_THAT(outcome.err, Contains("a.panel:1:1: error: a panel names its sliders"));
+    CHECK_THAT(outcome.err, Contains("a.panel:1:1: a panel names its sliders"));
 }
 
 TEST_CASE_METHOD(Workplace, "checking a scene grows nothing and leaves nothing", "[app]") {

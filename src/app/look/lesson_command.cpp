@@ -45,7 +45,7 @@ public:
         app().add_flag("--data", data_, "print what the page consists of as JSON, and write no page");
         add_json_flag("print what was written as JSON");
         app().footer(
-            R"(The page is one file of 2.1 MB that needs neither Espalier nor a network, and works on a phone. Its text begins with a table:
+            R"(The page is one file of 2.2 MB that needs neither Espalier nor a network, and works on a phone. Its text begins with a table:
 
   +++
   title = "A tree that reaches for light"

@@ -73,7 +73,7 @@ public:
                          "the page, a .html file; default: share.html in the folder of the run; of a scene or a model "
                          "its name, here");
         CLI::Option* const live = app().add_flag(
-            "--live", is_live_, "a page that grows the plants itself: the studio with the texts of the growth, 2.1 MB");
+            "--live", is_live_, "a page that grows the plants itself: the studio with the texts of the growth, 2.2 MB");
         app().add_option("--step", steps_, frame_option_help)->capture_default_str()->excludes(live);
         app()
             .add_option("--frames", most_, "so many frames at most, evenly chosen from those of --step; default: 120")
