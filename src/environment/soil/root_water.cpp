@@ -178,14 +178,13 @@ public:
         mean_demand_ = collar_.held ? 0 : collar_.mean_demand(day, days);
         const double demand = std::max(0.0, (mean_demand_ - (1 - weight) * last_demand_) / weight);
         const double held = collar_.held ? collar_.head.at(day + 0.5 * days) : 0;
-        for (std::size_t p = 0; p < roots_.size() && shoot_; ++p) {
-            if (!shoots_[p]) continue;
-            shoots_[p]->set_substep(days, weight);
-            roots_[p].solve_under(points, *shoots_[p]);
+        if (shoot_) {
+            solve_under_shoots(points, days, weight);
+        } else {
+            for_in_parallel(std::size_t{0}, roots_.size(), [&](std::size_t p) {
+                roots_[p].solve(points, model_, collar_, feddes_, has_leaves() ? demand_of(p, weight) : demand, held);
+            });
         }
-        for_in_parallel(std::size_t{0}, shoot_ ? 0 : roots_.size(), [&](std::size_t p) {
-            roots_[p].solve(points, model_, collar_, feddes_, has_leaves() ? demand_of(p, weight) : demand, held);
-        });
         for (const PlantUptake& plant : roots_) {
             const PlantRoots& roots = plant.roots();
             for (std::size_t i = 0; i < roots.pieces.size(); ++i) {
@@ -330,6 +329,14 @@ public:
     }
 
 private:
+    void solve_under_shoots(std::span<const SoilPoint> points, double days, double weight) {
+        for (std::size_t p = 0; p < roots_.size(); ++p) {
+            if (!shoots_[p]) continue;
+            shoots_[p]->set_substep(days, weight);
+            roots_[p].solve_under(points, *shoots_[p]);
+        }
+    }
+
     bool has_leaves() const { return shoot_ || !collar_.leaves.empty(); }
 
     void begin_leaves(const WorldView& world) {

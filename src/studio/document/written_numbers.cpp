@@ -4,6 +4,7 @@
 #include "espalier/language/model_settings.h"
 #include "espalier/language/notation.h"
 
+#include "base/characters.h"
 #include "base/number.h"
 #include "base/text.h"
 #include "studio/document/scene_words.h"
@@ -12,7 +13,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <optional>
 #include <string_view>
@@ -46,15 +46,11 @@ private:
     std::vector<std::size_t> begins_;
 };
 
-bool is_of_word(char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
-}
-
 // Behind `word` as a word of its own; npos if it is not there before `end`.
 std::size_t behind_word(const std::string& text, const std::string& word, std::size_t begin, std::size_t end) {
     for (std::size_t at = text.find(word, begin); at < end; at = text.find(word, at + 1)) {
         const std::size_t behind = at + word.size();
-        if ((at == begin || !is_of_word(text[at - 1])) && (behind == text.size() || !is_of_word(text[behind])))
+        if ((at == begin || !is_name_part(text[at - 1])) && (behind == text.size() || !is_name_part(text[behind])))
             return behind;
     }
     return std::string::npos;
@@ -70,14 +66,6 @@ std::optional<std::size_t> place_of_value(const ModelSetting& setting, const std
     const std::size_t at = text.find(value, behind);
     if (at == std::string::npos || at + value.size() > end) return std::nullopt;
     return at;
-}
-
-bool is_blank(char c) {
-    return std::isspace(static_cast<unsigned char>(c)) != 0;
-}
-
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
 }
 
 // What a text begins with and `fits`; goes behind it.
@@ -131,7 +119,7 @@ std::optional<WrittenNumber> plain_definition(const std::string& text, std::size
     if (!rest.starts_with(word)) return std::nullopt;
     rest.remove_prefix(word.size());
     if (taken(rest, is_blank).empty()) return std::nullopt;
-    const std::string_view name = taken(rest, is_of_word);
+    const std::string_view name = taken(rest, is_name_part);
     if (name.empty() || taken(rest, is_blank).empty()) return std::nullopt;
     const std::size_t offset = static_cast<std::size_t>(rest.data() - text.data());
     const std::string_view value = taken_number(rest);
