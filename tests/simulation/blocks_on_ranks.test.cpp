@@ -131,7 +131,8 @@ TEST_CASE_METHOD(Divided, "each rank divides its own plants, so that all have as
         plants.emplace_back(static_cast<std::uint32_t>(plants.size()), plant, symbols, DerivationSettings{});
     }
     MemoryBudget memory(std::size_t{1} << 30);
-    PlantsOnDisk on_disk(std::move(plants), path(), /*blocks=*/4, /*resident=*/1, memory);
+    PlantsOnDisk on_disk(std::move(plants), path(), /*blocks=*/4, /*resident=*/1, memory,
+                         /*holds_queries=*/true);
     const auto local_of_parts = [&] {
         std::vector<std::ptrdiff_t> counts;
         std::uint32_t next = 0;

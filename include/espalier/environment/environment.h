@@ -89,6 +89,9 @@ public:
     /// exchange().
     std::optional<std::size_t> process_of(const Query& query, const PlantView& plant, int step);
 
+    /// Of plants that are not in memory, an exchange reads the queries in parts, and never holds all of them.
+    bool takes_parts() const { return taker_of_parts() != nullptr; }
+
     /// Bytes that plants must leave to the fields of processes until the next exchange.
     std::size_t memory_kept() const;
     /// What all fields together may take from the next exchange on.
@@ -111,7 +114,14 @@ private:
 
     struct Answering;
 
+    TakesParts* taker_of_parts() const;
+    void exchange_in_parts(TakesParts& taker, const WorldView& world, std::span<ModuleString*> strings);
+    template <class Use>
+    void for_parts(const WorldView& world, const Use& use);
+    template <class Work>
+    void have_work(std::size_t process, int step, const Work& work);
     void gather(const WorldView& world);
+    void forget();
     bool borrow(const WorldView& world);
     void make_room(const WorldView& world);
     bool copies(const WorldView& world) const;

@@ -36,7 +36,7 @@ struct PlantView {
 /// The queries of plants that are not in memory, in place of those of their interpretations.
 struct WaitingQueries {
     std::size_t count = 0;  ///< of all plants
-    /// Of one plant. Asked for once each, in plant order; valid until the next plant's are asked for.
+    /// Of one plant; valid until the next plant's are asked for, which is done in plant order.
     std::function<std::span<const Query>(std::uint32_t plant)> of;
 };
 
@@ -100,6 +100,18 @@ enum class Spreading {
     plants,   ///< all queries, all strings, and all that is drawn
 };
 
+/// What a process is besides which reads each query by itself. Of plants that are not in memory it is given parts of the
+/// queries, each of whole plants, and memory holds no more than one part. In a step, in this order: `begin`; `take` for
+/// each part; `settle`; `answer_part` for each part again.
+class TakesParts {
+public:
+    virtual ~TakesParts() = default;
+    virtual void begin() = 0;
+    virtual void take(Queries part) = 0;
+    virtual void settle() = 0;
+    virtual void answer_part(Queries part, std::span<Answer> answers) = 0;
+};
+
 /// Constructors take (Settings&, const EnvironmentContext&, Fields&), read their parameters (the scene rejects unread
 /// ones) and provide their fields. Order inside a step: `advance`, then `answer`, each once; then fields and statistics
 /// are recorded. Answers do not depend on the order of the queries, nor on the number of threads.
@@ -112,6 +124,9 @@ public:
 
     /// Answers the whole batch; answers[i] belongs to queries[i] and begins as a copy of its parameters.
     virtual void answer(const WorldView& world, Queries queries, std::span<Answer> answers, Fields& fields) = 0;
+
+    /// This process, if it takes its queries in parts as well.
+    virtual TakesParts* in_parts() { return nullptr; }
 
     /// What keyframes of a scene may change: they set it before `advance`. All other settings stay.
     virtual std::vector<ChangingSetting> changing_settings() { return {}; }

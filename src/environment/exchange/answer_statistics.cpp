@@ -15,8 +15,7 @@ void AnswerStatistics::add(std::uint32_t plant, double value) {
 
 // Queries come in the order of the plants. The totals of one stay in registers, and the queries of the last one need
 // not be read.
-void AnswerStatistics::sum_up(Queries queries, std::span<const Answer> answers, std::size_t index) {
-    clear();
+void AnswerStatistics::add(Queries queries, std::span<const Answer> answers, std::size_t index) {
     for (std::size_t i = 0; i < queries.size();) {
         const std::uint32_t plant = queries[i].plant;
         const bool is_last = plant == queries.back().plant;
@@ -26,6 +25,11 @@ void AnswerStatistics::sum_up(Queries queries, std::span<const Answer> answers, 
         }
         totals_of(plant) = totals;
     }
+}
+
+void AnswerStatistics::sum_up(Queries queries, std::span<const Answer> answers, std::size_t index) {
+    clear();
+    add(queries, answers, index);
 }
 
 AnswerStatistics::Totals& AnswerStatistics::totals_of(std::uint32_t plant) {

@@ -15,6 +15,7 @@ public:
 
     void clear();
     void add(std::uint32_t plant, double value);
+    void add(Queries queries, std::span<const Answer> answers, std::size_t index = 0);
     /// After clear: parameter `index` of every answer that has it. Queries in the order of the plants.
     void sum_up(Queries queries, std::span<const Answer> answers, std::size_t index = 0);
 

@@ -65,6 +65,7 @@ void write_turtle_answers(const WorldView& world, std::span<ModuleString*> strin
 
 void Environment::exchange(const WorldView& world, std::span<ModuleString*> strings) {
     assert(strings.size() == world.plants.size());
+    if (world.waiting && takes_parts()) return exchange_in_parts(*taker_of_parts(), world, strings);
     gather(world);
     for (std::size_t process = 0; process < processes_.size(); ++process) {
         if (!batches_[process].queries.empty()) asked_[process] = true;
@@ -81,8 +82,57 @@ void Environment::exchange(const WorldView& world, std::span<ModuleString*> stri
     note_memory();
 }
 
-// Plant order, then string order.
-void Environment::gather(const WorldView& world) {
+// The only process, where its communication leaves the queries as they are.
+TakesParts* Environment::taker_of_parts() const {
+    if (processes_.size() != 1 || routed_) return nullptr;
+    const Communication& communication = communications_.front();
+    if (communication.changes_queries() || communication.rounds_parameters()) return nullptr;
+    return processes_.front()->in_parts();
+}
+
+void Environment::exchange_in_parts(TakesParts& taker, const WorldView& world, std::span<ModuleString*> strings) {
+    {
+        const Answering::Turn turn(*answering_, names_.front());
+        have_work(0, world.step, [&] { taker.begin(); });
+        for_parts(world, [&](Batch& batch) {
+            asked_.front() = true;
+            have_work(0, world.step, [&] { taker.take(batch.queries); });
+        });
+        have_work(0, world.step, [&] { taker.settle(); });
+        for_parts(world, [&](Batch& batch) {
+            begin_answers(batch);
+            have_work(0, world.step, [&] { taker.answer_part(batch.queries, batch.answers); });
+            require_finite(0, world);
+            // What is asked later is of other plants.
+            write_answers(batch, strings);
+        });
+    }
+    write_defaults(strings);
+    write_turtle_answers(world, strings);
+    batches_.front().copies = QueryColumn();
+    note_memory();
+}
+
+// Calls use(batch) for the queries of some plants after the other, in plant order, then string order.
+template <class Use>
+void Environment::for_parts(const WorldView& world, const Use& use) {
+    constexpr std::size_t part = 1 << 16;  // queries: 12 MB
+    forget();
+    Batch& batch = batches_.front();
+    const auto use_some = [&] {
+        batch.queries = batch.copies;
+        batch.parameters.clear();
+        use(batch);
+        batch.copies.clear();
+    };
+    for (const PlantView& plant : world.plants) {
+        gather(plant, world.waiting->of(plant.plant), world);
+        if (batch.copies.size() >= part) use_some();
+    }
+    if (!batch.copies.empty()) use_some();
+}
+
+void Environment::forget() {
     for (Batch& batch : batches_) {
         batch.copies.clear();
         batch.places.clear();
@@ -91,6 +141,11 @@ void Environment::gather(const WorldView& world) {
     }
     defaults_.clear();
     last_model_ = nullptr;
+}
+
+// Plant order, then string order.
+void Environment::gather(const WorldView& world) {
+    forget();
     if (world.waiting || !borrow(world)) {
         make_room(world);
         for (const PlantView& plant : world.plants) {
@@ -294,17 +349,25 @@ void Environment::consult(std::size_t process, const WorldView& world) {
     const Answering::Turn turn(*answering_, names_[process]);
     WorldView seen = world;
     seen.environment = this;
-    try {
+    have_work(process, world.step, [&] {
         processes_[process]->advance(seen, batch.queries, fields_);
         processes_[process]->answer(seen, batch.queries, batch.answers, fields_);
+    });
+    require_finite(process, world);
+    round_answers(process);
+}
+
+// What goes wrong in a process is said with its name.
+template <class Work>
+void Environment::have_work(std::size_t process, int step, const Work& work) {
+    try {
+        work();
     } catch (const UserError&) {
         throw;
     } catch (const std::exception& error) {
-        throw RunError(fmt::format("step {}: process '{}' ({}): {}", world.step, names_[process], kinds_[process],
-                                   reason_of(error)));
+        throw RunError(
+            fmt::format("step {}: process '{}' ({}): {}", step, names_[process], kinds_[process], reason_of(error)));
     }
-    require_finite(process, world);
-    round_answers(process);
 }
 
 // What a process left alone keeps all its digits.

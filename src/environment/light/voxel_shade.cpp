@@ -126,7 +126,7 @@ VoxelBox clip_of(const ShadeLattice& lattice) {
     return clip;
 }
 
-class VoxelShade final : public EnvironmentProcess {
+class VoxelShade final : public EnvironmentProcess, private TakesParts {
 public:
     VoxelShade(Settings& settings, const EnvironmentContext& context, Fields& fields)
         : rule_(read_rule(settings)),
@@ -141,28 +141,51 @@ public:
     }
 
     void advance(const WorldView&, Queries queries, Fields&) override {
+        begin();
+        take(queries);
+        settle();
+    }
+
+    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
+        answer_part(queries, answers);
+    }
+
+    TakesParts* in_parts() override { return this; }
+
+    void begin() override {
         casts_.begin_step();
+        grids_.begin_step(field_.bricks());
         casts_begin_.clear();
-        for (const Query& query : queries) {
+    }
+
+    void take(Queries part) override {
+        for (const Query& query : part) {
             casts_begin_.push_back(casts_.casts().size());
             if (query.parameters[0] > 0) {
                 cast(lattice_.voxel_of(query.pose.position), query.parameters[0] * strength_now_);
             }
         }
-        casts_begin_.push_back(casts_.casts().size());
-        field_.show(casts_, [this] { return grids_.light_to_write(field_.bricks(), shown()); });
     }
 
-    void answer(const WorldView&, Queries queries, std::span<Answer> answers, Fields&) override {
+    void settle() override {
+        casts_begin_.push_back(casts_.casts().size());
+        field_.show(casts_, [this] { return grids_.light_to_write(field_.bricks(), shown()); });
+        answered_ = 0;
+        statistics_.clear();
+        std::fill(cast_by_.begin(), cast_by_.end(), 0);
+    }
+
+    void answer_part(Queries part, std::span<Answer> answers) override {
         const ShadeLight light(lattice_, casts_, field_);
         const auto answer_some = [&](const tbb::blocked_range<std::size_t>& some) {
             for (std::size_t i = some.begin(); i < some.end(); ++i) {
-                if (i + fetched_ahead < some.end()) light.fetch(queries[i + fetched_ahead].pose.position);
-                answer_one(light, queries[i], own(i), answers[i]);
+                if (i + fetched_ahead < some.end()) light.fetch(part[i + fetched_ahead].pose.position);
+                answer_one(light, part[i], own(answered_ + i), answers[i]);
             }
         };
-        for_in_parallel(tbb::blocked_range<std::size_t>(0, queries.size(), 256), answer_some);
-        sum_up(queries, answers);
+        for_in_parallel(tbb::blocked_range<std::size_t>(0, part.size(), 256), answer_some);
+        answered_ += part.size();
+        count(part, answers);
     }
 
     std::vector<ChangingSetting> changing_settings() override {
@@ -226,10 +249,9 @@ private:
         for (int axis = 0; axis < 3; ++axis) answer[static_cast<std::size_t>(axis) + 1] = gradient[axis];
     }
 
-    void sum_up(Queries queries, std::span<const Answer> answers) {
-        statistics_.sum_up(queries, answers);
-        std::fill(cast_by_.begin(), cast_by_.end(), 0);
-        for (const Query& query : queries) {
+    void count(Queries part, std::span<const Answer> answers) {
+        statistics_.add(part, answers);
+        for (const Query& query : part) {
             if (query.plant >= cast_by_.size()) cast_by_.resize(query.plant + 1);
             cast_by_[query.plant] += query.parameters[0] > 0;
         }
@@ -243,6 +265,7 @@ private:
     ShadeField field_;
     ShadeGrids grids_;
     std::vector<std::size_t> casts_begin_;  ///< where the casts of each query begin, and where the last one's end
+    std::size_t answered_ = 0;              ///< queries of this step
     AnswerStatistics statistics_;
     std::vector<double> cast_by_;  ///< pyramids of each plant
 };

@@ -73,13 +73,12 @@ void MemoryBudget::count_drawn(GrowingPlant& plant, int step, bool many_plants) 
     plant.memory.set_recorded(recorded, before);
 }
 
-void MemoryBudget::count_waiting(GrowingPlant& plant) {
+void MemoryBudget::count_waiting(GrowingPlant& plant, std::size_t queries) {
     const std::size_t before = plant.memory.strings;
     const RecordedMemory recorded = plant.memory.recorded;
     plant.memory = {};
     plant.memory.strings = plant.string->content();
-    // The exchange moves the queries: they are there once, with their answers.
-    plant.memory.drawn = plant.interpretation->queries.size() * (sizeof(Query) + sizeof(Answer) + 2 * sizeof(double));
+    plant.memory.drawn = queries * (sizeof(Query) + sizeof(Answer) + 2 * sizeof(double));
     plant.memory.recorded = {0, recorded.kept, recorded.finish};
     strings_ -= before - plant.memory.strings;
 }

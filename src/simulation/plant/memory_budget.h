@@ -42,8 +42,8 @@ public:
     void count_strings(GrowingPlant& plant);
     void check_strings(std::span<const GrowingPlant> plants, int step);
 
-    /// Of a plant only the queries are left in memory.
-    void count_waiting(GrowingPlant& plant);
+    /// Of a plant only the parameters of its queries are left in memory, and `queries` of them during an exchange.
+    void count_waiting(GrowingPlant& plant, std::size_t queries);
 
     // Around interpretation.
     void count_drawn(GrowingPlant& plant, int step, bool many_plants) const;

@@ -54,9 +54,9 @@ public:
     /// Together: plants that others hold get what processes must see of them. `first_sees_all`: on the first rank,
     /// whose fields are recorded, processes see all queries.
     virtual void share(Environment& environment, int step, bool first_sees_all) = 0;
-    /// What a plant asks, between growth and exchange.
-    virtual std::span<const Query> queries_of(const GrowingPlant& plant) = 0;
-    /// Those of all plants, once; null where they are in the plants' interpretations.
+    /// What a plant asks, between growth and exchange. They stand in `room` where the plant is not in memory.
+    virtual std::span<const Query> queries_of(const GrowingPlant& plant, QueryColumn& room) = 0;
+    /// Those of all plants; null where they are in the plants' interpretations.
     virtual const environment::WaitingQueries* queries() = 0;
 
     // Recording.

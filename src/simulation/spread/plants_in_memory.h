@@ -21,7 +21,9 @@ public:
     void end_growth() override {}
 
     void share(Environment&, int, bool) override {}
-    std::span<const Query> queries_of(const GrowingPlant& plant) override { return plant.interpretation->queries; }
+    std::span<const Query> queries_of(const GrowingPlant& plant, QueryColumn&) override {
+        return plant.interpretation->queries;
+    }
     const environment::WaitingQueries* queries() override { return nullptr; }
     std::vector<Quantity> statistics(const Environment& environment, const GrowingPlant& plant) override {
         return environment.statistics(plant.number);

@@ -32,30 +32,16 @@ std::vector<QueryPlace> places_of(const QueryColumn& queries, const ModuleString
     return places;
 }
 
-/// Makes the queries read their parameters there.
-void point(QueryColumn& queries, const std::vector<QueryPlace>& places, const Column<double>& parameters) {
+/// Makes a query read its parameters there.
+void point(Query& query, const QueryPlace& place, const Column<double>& parameters) {
     const std::span all(parameters);
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-        const QueryPlace& place = places[i];
-        queries[i].parameters_at = place.own;
-        queries[i].parameters = all.subspan(place.own, place.own_count);
-        queries[i].following_parameters = all.subspan(place.following, place.following_count);
-    }
+    query.parameters_at = place.own;
+    query.parameters = all.subspan(place.own, place.own_count);
+    query.following_parameters = all.subspan(place.following, place.following_count);
 }
 
-/// Calls visit(place in the plant's string, place in a string of nothing but the parameters of queries).
-template <class Visit>
-void for_places(const std::vector<QueryPlace>& places, const Visit& visit) {
-    std::uint64_t next = 0;
-    for (const QueryPlace& place : places) {
-        const std::uint64_t own = next, following = own + place.own_count;
-        visit(place, QueryPlace{own, following, place.own_count, place.following_count});
-        next = following + place.following_count;
-    }
-}
-
-/// A string of nothing but the parameters of queries. `places` become those in it.
-std::shared_ptr<ModuleString> parameters_alone(const ModuleString& string, std::vector<QueryPlace>& places) {
+/// A string of nothing but the parameters of queries.
+std::shared_ptr<ModuleString> parameters_alone(const ModuleString& string, const std::vector<QueryPlace>& places) {
     auto alone = std::make_shared<ModuleString>();
     std::size_t count = 0;
     for (const QueryPlace& place : places) count += place.own_count + place.following_count;
@@ -64,40 +50,45 @@ std::shared_ptr<ModuleString> parameters_alone(const ModuleString& string, std::
         const auto begin = string.parameters.begin() + static_cast<std::ptrdiff_t>(from);
         alone->parameters.insert(alone->parameters.end(), begin, begin + size);
     };
-    std::vector<QueryPlace> now;
-    now.reserve(places.size());
-    for_places(places, [&](const QueryPlace& from, const QueryPlace& to) {
-        copy(from.own, from.own_count);
-        copy(from.following, from.following_count);
-        now.push_back(to);
-    });
-    places = std::move(now);
+    for (const QueryPlace& place : places) {
+        copy(place.own, place.own_count);
+        copy(place.following, place.following_count);
+    }
     return alone;
 }
 
+/// Makes queries that come from disk read their parameters in such a string.
+void point_alone(QueryColumn& queries, const Column<double>& parameters) {
+    std::uint64_t next = 0;
+    for (Query& query : queries) {
+        const auto own = static_cast<std::uint32_t>(query.parameters.size());
+        const auto following = static_cast<std::uint32_t>(query.following_parameters.size());
+        point(query, {next, next + own, own, following}, parameters);
+        next += own + following;
+    }
+}
+
+/// From such a string.
 void write_answers(const ModuleString& answered, const std::vector<QueryPlace>& places, ModuleString& string) {
-    for_places(places, [&](const QueryPlace& to, const QueryPlace& from) {
-        const auto begin = answered.parameters.begin() + static_cast<std::ptrdiff_t>(from.own);
-        std::copy(begin, begin + from.own_count, string.parameters.begin() + static_cast<std::ptrdiff_t>(to.own));
-    });
+    auto next = answered.parameters.begin();
+    for (const QueryPlace& place : places) {
+        std::copy(next, next + place.own_count, string.parameters.begin() + static_cast<std::ptrdiff_t>(place.own));
+        next += place.own_count + place.following_count;
+    }
 }
 
 }  // namespace
 
 PlantsOnDisk::PlantsOnDisk(std::vector<GrowingPlant> plants, std::filesystem::path folder, std::size_t blocks,
-                           std::size_t resident, MemoryBudget& memory)
+                           std::size_t resident, MemoryBudget& memory, bool holds_queries)
     : PlantsInMemory(std::move(plants)),
       folder_(std::move(folder)),
       blocks_(blocks),
       resident_(resident),
       memory_(memory),
+      holds_queries_(holds_queries),
       places_(all().size()),
-      waiting_(all().size()),
-      asked_(all().size()) {}
-
-void PlantsOnDisk::begin_growth(double, int) {
-    queries_.clear();
-}
+      waiting_(all().size()) {}
 
 // Which plants are local changes when plants move to other ranks.
 std::vector<PlantSet::Part> PlantsOnDisk::parts() {
@@ -147,7 +138,6 @@ void PlantsOnDisk::store(Part part, int step, bool drawn) {
     open_files();
     for_local_plants(part, [&](GrowingPlant& plant) { write(plant, 1 - now_, drawn); });
     memory_.check_drawn(all(), step);
-    gather_queries(part);
 }
 
 // The room on disk of what the plants were before is free again.
@@ -160,75 +150,58 @@ void PlantsOnDisk::end_growth() {
 void PlantsOnDisk::take_restored(GrowingPlant& plant) {
     open_files();
     write(plant, now_, /*drawn=*/false);
-    asked_[plant.number] = {};
+    places_[plant.number].queries = 0;
 }
 
 void PlantsOnDisk::write(GrowingPlant& plant, std::size_t file, bool drawn) {
     const Interpretation& from = *plant.interpretation;
     ModuleString& string = *plant.string;
-    std::vector<QueryPlace> places = places_of(from.queries, string);
+    const std::vector<QueryPlace> places = places_of(from.queries, string);
     std::ostringstream out;
     put_column(out, places);
-    auto asked = std::make_shared<Interpretation>();
-    asked->queries = from.queries;
     auto parameters = parameters_alone(string, places);
-    point(asked->queries, places, parameters->parameters);
     // Processes answer queries only, so the turtle may be first.
     write_turtle_answers(from, string);
     save_string(string, out);
-    const auto string_size = static_cast<std::uint64_t>(out.tellp());
-    std::size_t points = 0;
+    Place place;
+    place.string = static_cast<std::uint64_t>(out.tellp());
+    put_column(out, from.queries);
+    place.asked = static_cast<std::uint64_t>(out.tellp());
+    place.queries = from.queries.size();
+    place.is_drawn = drawn;
+    auto waiting = std::make_shared<Interpretation>();
     if (drawn) {
         const PlantGeometry& geometry = plant.drawn().geometry;
-        put_column(out, from.queries);
         put_column(out, from.answers);
         put_column(out, from.directions);
         put_geometry(out, geometry);
-        asked->geometry.shapes = geometry.shapes;
-        points = points_foreseen(geometry);
+        waiting->geometry.shapes = geometry.shapes;
+        place.points = points_foreseen(geometry);
     }
     const std::string bytes = std::move(out).str();
-    places_[plant.number] = {files_[file]->append(bytes), bytes.size(), string_size, points};
-    plant.hold(std::move(parameters), std::move(asked));
-    memory_.count_waiting(plant);
+    place.size = bytes.size();
+    place.at = files_[file]->append(bytes);
+    places_[plant.number] = place;
+    plant.hold(std::move(parameters), std::move(waiting));
+    memory_.count_waiting(plant, holds_queries_ ? place.queries : 0);
 }
 
-// Puts the queries of a part's plants side by side.
-void PlantsOnDisk::gather_queries(Part part) {
-    QueryColumn& queries = queries_.emplace_back();
-    std::size_t count = 0;
-    for (const GrowingPlant& plant : part) {
-        const std::size_t own = plant.is_local ? plant.interpretation->queries.size() : 0;
-        asked_[plant.number] = {queries_.size() - 1, count, own};
-        count += own;
-    }
-    queries.reserve(count);
-    for (GrowingPlant& plant : part) {
-        if (!plant.is_local) continue;
-        QueryColumn& own = plant.interpretation->queries;
-        queries.insert(queries.end(), own.begin(), own.end());
-        own = QueryColumn();  // frees its memory; = {} would not
-    }
-}
-
-std::span<const Query> PlantsOnDisk::queries_of(const GrowingPlant& plant) {
+std::span<const Query> PlantsOnDisk::queries_of(const GrowingPlant& plant, QueryColumn& room) {
     if (!plant.is_local) return plant.interpretation->queries;
-    const Asked& asked = asked_[plant.number];
-    if (asked.count == 0) return {};
-    return std::span(queries_[asked.part]).subspan(asked.begin, asked.count);
-}
-
-// Those of the part before have been read by now.
-std::span<const Query> PlantsOnDisk::queries_in_order(std::uint32_t plant) {
-    const std::size_t part = asked_[plant].part;
-    if (part > 0) queries_[part - 1] = QueryColumn();
-    return queries_of(all()[plant]);
+    const Place& place = places_[plant.number];
+    if (place.queries == 0) return {};
+    std::istringstream in(files_[now_]->read(place.at + place.string, place.asked - place.string));
+    get_column(in, room);
+    point_alone(room, plant.string->parameters);
+    return room;
 }
 
 const environment::WaitingQueries* PlantsOnDisk::queries() {
     of_all_.count = 0;
-    for (const GrowingPlant& plant : all()) of_all_.count += queries_of(plant).size();
-    of_all_.of = [this](std::uint32_t plant) { return queries_in_order(plant); };
+    for (const GrowingPlant& plant : all()) {
+        of_all_.count += plant.is_local ? places_[plant.number].queries : plant.interpretation->queries.size();
+    }
+    of_all_.of = [this](std::uint32_t plant) { return queries_of(all()[plant], of_one_); };
     return &of_all_;
 }
 
@@ -256,8 +229,7 @@ void PlantsOnDisk::put_state(std::ostream& out, GrowingPlant& plant) {
 
 void PlantsOnDisk::show(GrowingPlant& plant) {
     waiting_[plant.number] = {plant.string.share(), plant.interpretation.share()};
-    const Place& place = places_[plant.number];
-    read(plant, /*drawn=*/place.size > place.string);
+    read(plant, places_[plant.number].is_drawn);
 }
 
 void PlantsOnDisk::hide(GrowingPlant& plant) {
@@ -278,7 +250,7 @@ void PlantsOnDisk::read(GrowingPlant& plant, bool drawn) {
     auto shown = std::make_shared<Interpretation>();
     if (drawn) {
         get_column(in, shown->queries);
-        point(shown->queries, places, string->parameters);
+        for (std::size_t i = 0; i < places.size(); ++i) point(shown->queries[i], places[i], string->parameters);
         get_column(in, shown->answers);
         get_column(in, shown->directions);
         get_geometry(in, shown->geometry);

@@ -16,24 +16,23 @@
 
 namespace espalier::simulation {
 
-/// The local plants come into memory part by part. Of those that wait, memory holds the parameters of their queries
-/// and, until the exchange has read them, the queries, which is all that an exchange needs. What other ranks send of
-/// theirs does not wait.
+/// The local plants come into memory part by part. Of those that wait, memory holds the parameters of their queries,
+/// where processes answer; the exchange reads the queries, plant by plant. What other ranks send of theirs does not
+/// wait.
 class PlantsOnDisk final : public PlantsInMemory {
 public:
     /// The local plants are divided into `blocks`, of which `resident` are in memory at once. `folder` exists before
-    /// the first plants wait, and has room twice for what the plants are.
+    /// the first plants wait, and has room twice for what the plants are. `holds_queries`: an exchange holds those of
+    /// all plants in memory.
     PlantsOnDisk(std::vector<GrowingPlant> plants, std::filesystem::path folder, std::size_t blocks,
-                 std::size_t resident, MemoryBudget& memory);
+                 std::size_t resident, MemoryBudget& memory, bool holds_queries);
 
-    void begin_growth(double busy, int step) override;
     std::vector<Part> parts() override;
     void fetch(Part part) override;
     void store(Part part, int step, bool drawn) override;
     void end_growth() override;
 
-    std::span<const Query> queries_of(const GrowingPlant& plant) override;
-    /// Memory holds them no longer than the exchange needs.
+    std::span<const Query> queries_of(const GrowingPlant& plant, QueryColumn& room) override;
     const environment::WaitingQueries* queries() override;
 
     void show(std::span<const Part> to_each, const Environment& environment, int step) override;
@@ -49,11 +48,10 @@ private:
         std::uint64_t at = 0;
         std::uint64_t size = 0;    ///< 0: the plant does not wait
         std::uint64_t string = 0;  ///< of them the first, which fetch() reads
+        std::uint64_t asked = 0;   ///< where what it asks ends, which begins behind the string
+        std::size_t queries = 0;   ///< since it was stored last; 0 after a restart
         std::size_t points = 0;    ///< of what is drawn
-    };
-    /// Of a plant, those of its part's.
-    struct Asked {
-        std::size_t part = 0, begin = 0, count = 0;
+        bool is_drawn = false;
     };
     struct Waiting {
         std::shared_ptr<const ModuleString> string;
@@ -67,17 +65,15 @@ private:
     void read(GrowingPlant& plant, bool drawn);
     void show(GrowingPlant& plant);
     void hide(GrowingPlant& plant);
-    void gather_queries(Part part);
-    std::span<const Query> queries_in_order(std::uint32_t plant);
 
     const std::filesystem::path folder_;
     const std::size_t blocks_, resident_;
     MemoryBudget& memory_;
+    const bool holds_queries_;
     std::vector<Place> places_;  ///< of each plant
     Part shown_;
     std::vector<Waiting> waiting_;      ///< of plants that are shown
-    std::vector<Asked> asked_;          ///< of each plant
-    std::vector<QueryColumn> queries_;  ///< of each part that was stored in this step: of its local plants
+    QueryColumn of_one_;
     environment::WaitingQueries of_all_;
     std::array<std::optional<ScratchFile>, 2> files_;
     std::size_t now_ = 0;

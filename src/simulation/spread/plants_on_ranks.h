@@ -28,7 +28,9 @@ public:
     void end_growth() override { plants_->end_growth(); }
 
     void share(Environment& environment, int step, bool first_sees_all) override;
-    std::span<const Query> queries_of(const GrowingPlant& plant) override { return plants_->queries_of(plant); }
+    std::span<const Query> queries_of(const GrowingPlant& plant, QueryColumn& room) override {
+        return plants_->queries_of(plant, room);
+    }
     const environment::WaitingQueries* queries() override { return plants_->queries(); }
     std::vector<Quantity> statistics(const Environment& environment, const GrowingPlant& plant) override {
         return spread_->statistics(environment, plant);

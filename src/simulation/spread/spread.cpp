@@ -100,6 +100,7 @@ Spread::Asked Spread::asked(PlantSet& plants, Environment& environment, int step
     asked.reaches.resize(plants.all().size());
     asked.goes_everywhere.resize(plants.all().size());
     std::map<std::size_t, std::vector<Box>> of_blocks;
+    QueryColumn room;
     for (const GrowingPlant& plant : plants.all()) {
         if (!plant.is_local) continue;
         std::vector<Box>& places = of_blocks[blocks_[plant.number]];
@@ -107,7 +108,7 @@ Spread::Asked Spread::asked(PlantSet& plants, Environment& environment, int step
         places.resize(spreadings_.size());
         reaches.resize(spreadings_.size());
         const PlantView view = plant.view();
-        for (const Query& query : plants.queries_of(plant)) {
+        for (const Query& query : plants.queries_of(plant, room)) {
             const std::optional<std::size_t> process = environment.process_of(query, view, step);
             if (!process) continue;
             places[*process].add(query.pose.position);
@@ -167,6 +168,7 @@ void Spread::select(const GrowingPlant& plant, std::span<const Query> queries, E
 void Spread::put_shared(std::ostream& out, PlantSet& plants, Environment& environment, int step, const Asked& asked,
                         const Places& places, bool sees_all) const {
     std::vector<const Query*> selected;
+    QueryColumn room;
     for (const GrowingPlant& plant : plants.all()) {
         if (!plant.is_local) continue;
         if (sends_plants_) {
@@ -175,7 +177,7 @@ void Spread::put_shared(std::ostream& out, PlantSet& plants, Environment& enviro
             continue;
         }
         if (!sees_all && !may_matter(plant, asked, places)) continue;
-        select(plant, plants.queries_of(plant), environment, step, places, sees_all, selected);
+        select(plant, plants.queries_of(plant, room), environment, step, places, sees_all, selected);
         if (selected.empty()) continue;
         put(out, plant.number);
         put_queries(out, selected);

@@ -82,7 +82,8 @@ void World::State::place(std::vector<GrowingPlant> made, const WorldOptions& opt
     if (const auto& blocks = options.blocks) {
         require_waiting();
         plants =
-            std::make_unique<PlantsOnDisk>(std::move(made), blocks->folder, blocks->count, blocks->resident, memory);
+            std::make_unique<PlantsOnDisk>(std::move(made), blocks->folder, blocks->count, blocks->resident, memory,
+                                           /*holds_queries=*/!environment->takes_parts());
     } else {
         plants = std::make_unique<PlantsInMemory>(std::move(made));
     }

@@ -75,6 +75,11 @@ void FrameWriter::start() {
     }
 }
 
+void FrameWriter::release_written() {
+    const std::lock_guard lock(mutex_);
+    for (const std::unique_ptr<Job>& job : done_) job->frame.release();
+}
+
 void FrameWriter::wait() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return waiting_.empty(); });

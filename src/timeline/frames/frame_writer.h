@@ -56,6 +56,8 @@ public:
     /// Keeps the frame and returns; waits before that while the queue is full. After a failure nothing more is
     /// written: throws it, here and in wait().
     void add(const Frame& frame, bool due);
+    /// Lets go of the frames that are written. For the thread that adds.
+    void release_written();
     /// Returns when every frame is written.
     void wait();
 

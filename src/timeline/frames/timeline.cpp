@@ -210,7 +210,10 @@ void Timeline::record(const Frame& frame) {
         is_due_ = is_due(frame.step, frame.is_last);
         if (frame.step >= next_) next_ = frames_.after(frame.step);
     }
-    if (is_due_ || sees_every_step_) writer_->add(frame, is_due_);
+    if (is_due_ || sees_every_step_)
+        writer_->add(frame, is_due_);
+    else
+        writer_->release_written();
     if (frame.piece) writer_->wait();  // whoever writes the others waits, too
     if (!frame.ends) return;
     if (is_due_ && !recorded_) writer_->wait();

@@ -117,6 +117,41 @@ TEST_CASE("queries without a process are answered the model's default, beside th
     CHECK(plants.parameters(1) == std::vector<double>{10});
 }
 
+TEST_CASE("plants that are not in memory get the answers and the failures of those that are", "[environment]") {
+    const std::string shade = "[light]\nprocess = \"voxel-shade\"\n";
+    for (const std::string& scene : {shade, shade + "[wind]\nprocess = \"test-echo\"\nfactor = 2\n"}) {
+        Environment environment = environment_of(scene), other = environment_of(scene);
+        CHECK(environment.takes_parts() == (scene == shade));
+        AskingPlants plants({"light", "nitrate"}), waiting({"light", "nitrate"});
+        for (AskingPlants* some : {&plants, &waiting}) {
+            some->model().default_answers = {{"nitrate", {10}}};
+            some->add({{{0, 1, 0}, {1}}, {{0, 0, 0}, {0}}, {{0, 0, 0}, {3, 4}, "nitrate"}}).add({});
+            some->add({{{0, 0, 0}, {0, 0, 0, 0}}});
+        }
+        plants.exchange(environment);
+        waiting.exchange_waiting(other);
+        for (std::size_t plant = 0; plant < 3; ++plant) CHECK(plants.parameters(plant) == waiting.parameters(plant));
+        CHECK(waiting.parameters(0)[1] < 1);
+        CHECK(waiting.parameters(0)[2] == 10);
+        plants.ask_again_with(std::nan(""));
+        waiting.ask_again_with(std::nan(""));
+        const std::string told = message_of([&] { plants.exchange(environment, 1); });
+        CHECK(told == message_of([&] { waiting.exchange_waiting(other, 1); }));
+        CHECK(lacks(told, {"step 1: plant 0", "'light' (voxel-shade) with the parameter nan"}) == "");
+    }
+}
+
+TEST_CASE("what a process throws over parts of the queries names the process", "[environment]") {
+    EnvironmentContext context;
+    context.memory = std::size_t(4) << 20;
+    Environment environment = environment_of("[light]\nprocess = \"voxel-shade\"\n", context);
+    AskingPlants plants;
+    plants.add(std::vector<Asked>(200'000, Asked{glm::dvec3(0), {1}}));
+    const std::string message = message_of([&] { plants.exchange_waiting(environment, 3); });
+    CHECK(lacks(message, {"step 3: process 'light' (voxel-shade): the shade of this step needs"}) == "");
+    CHECK(environment.consultation().process == nullptr);
+}
+
 TEST_CASE("every process advances once before it answers, asked or not, in the scene's order", "[environment]") {
     Environment environment = environment_of("[b]\nprocess = \"test-echo\"\n[a]\nprocess = \"test-echo\"");
     log_of_calls().clear();

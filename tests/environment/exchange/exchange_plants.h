@@ -56,14 +56,28 @@ public:
         return *this;
     }
 
-    void exchange(Environment& environment, int step = 0) {
+    void exchange(Environment& environment, int step = 0) { exchange(environment, step, nullptr); }
+
+    /// As if the plants were not in memory: their queries come one plant after the other, and do not stay.
+    void exchange_waiting(Environment& environment, int step = 0) {
+        WaitingQueries waiting;
+        QueryColumn of_one;
+        for (const Interpretation& one : interpretations_) waiting.count += one.queries.size();
+        waiting.of = [&](std::uint32_t plant) -> std::span<const Query> {
+            of_one = interpretations_[plant].queries;
+            return of_one;
+        };
+        exchange(environment, step, &waiting);
+    }
+
+    void exchange(Environment& environment, int step, const WaitingQueries* waiting) {
         std::vector<PlantView> views;
         std::vector<ModuleString*> strings;
         for (std::size_t i = 0; i < strings_.size(); ++i) {
             views.push_back({static_cast<std::uint32_t>(i), &model_, &strings_[i], &interpretations_[i]});
             strings.push_back(&strings_[i]);
         }
-        environment.exchange({step, double(step), 1, views}, strings);
+        environment.exchange({step, double(step), 1, views, waiting}, strings);
     }
 
     /// Writes every parameter anew over the answers, as a model does that asks again.

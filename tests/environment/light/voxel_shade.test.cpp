@@ -217,6 +217,37 @@ TEST_CASE("one thread and two give the same bytes, of answers and of fields", "[
     CHECK(std::equal(middle.begin(), middle.begin() + 14, middle.begin() + 14));
 }
 
+TEST_CASE("queries that come in parts, of plants that are not in memory, are answered as all at once", "[environment]") {
+    for (const std::string& scene : {palubicki, palubicki + "periodic = true\ndomain = { lower = [-8, -9, -6], upper = [8, 30, 6] }\n"}) {
+        Environment whole = environment_of(scene), parts = environment_of(scene);
+        AskingPlants all, waiting;
+        const std::vector<Asked> questions = crown(9000);
+        for (int plant = 0; plant < 20; ++plant) {  // 180,000: three parts
+            std::vector<Asked> own = questions;
+            for (Asked& asked : own) asked.position += glm::dvec3(0.7 * plant, 0.1 * plant, 0);
+            if (plant == 7) own.clear();
+            all.add(own);
+            waiting.add(own);
+        }
+        REQUIRE(parts.takes_parts());
+        for (int step = 0; step < 2; ++step) {
+            all.exchange(whole, step);
+            waiting.exchange_waiting(parts, step);
+            for (std::uint32_t plant = 0; plant < 20; ++plant) {
+                CHECK(same_bytes(all.parameters(plant), waiting.parameters(plant)));
+                const std::vector<Quantity> told = whole.statistics(plant), again = parts.statistics(plant);
+                REQUIRE(told.size() == again.size());
+                for (std::size_t i = 0; i < told.size(); ++i) {
+                    CHECK(same_bytes({told[i].value}, {again[i].value}));
+                }
+            }
+            all.ask_again_with(0.5);
+            waiting.ask_again_with(0.5);
+        }
+        CHECK(shade_at(whole, {3, 2, 1}) == shade_at(parts, {3, 2, 1}));
+    }
+}
+
 TEST_CASE("a grid that grows with the plants answers as a large fixed one", "[environment]") {
     const std::vector<Asked> questions = crown(300);
     const std::string domain = "domain = { lower = [-40.5, -40.5, -40.5], upper = [40.5, 40.5, 40.5] }\n";

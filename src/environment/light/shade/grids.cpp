@@ -65,9 +65,11 @@ struct ShadeGrids::Grids {
     struct One {
         Version now;
         std::vector<Version> before;
+        int idle = 0;  ///< steps in which nobody asked for it
 
         void note(const ShadeBricks& bricks);
         bool prepare(const ShadeBricks& bricks, const VoxelBox& shown);
+        void forget(const ShadeBricks& bricks);
         template <class Write>
         void bring_up_to_date(const ShadeBricks& bricks, const VoxelBox& shown, const Write& write);
 
@@ -174,6 +176,22 @@ bool ShadeGrids::Grids::One::prepare(const ShadeBricks& bricks, const VoxelBox& 
     return true;
 }
 
+// The field stays the same for those who know it, and is empty until it is asked for again.
+void ShadeGrids::Grids::One::forget(const ShadeBricks& bricks) {
+    if (now.leaves.empty() || now.is_read(2)) return;
+    now.field->grid->tree().clear();
+    now.leaves = {};
+    now.places = {};
+    before.clear();
+    now.forget_changes();
+    now.marks.resize(bricks.end(), 0);
+    for (std::size_t number = 0; number < bricks.end(); ++number) {
+        if (!bricks.exists(number)) continue;
+        now.marks[number] = 1;
+        now.changed.push_back(static_cast<std::uint32_t>(number));
+    }
+}
+
 template <class Write>
 void ShadeGrids::Grids::One::bring_up_to_date(const ShadeBricks& bricks, const VoxelBox& shown, const Write& write) {
     if (!prepare(bricks, shown)) return;
@@ -203,12 +221,14 @@ void ShadeGrids::provide(ShadeBricks& bricks, const VoxelBox& shown, Fields& fie
     const auto light = [this, &bricks, &shown]() -> std::shared_ptr<const FieldGrid> {
         note_changes(bricks);
         light_asked_for_ = true;
+        grids_->light.idle = 0;
         const auto write = [this](const Shade* sums, const ShadeLeaf& leaf) { write_light(rule_, sums, leaf); };
         grids_->light.bring_up_to_date(bricks, shown, write);
         return grids_->light.now.field;
     };
     const auto shade = [this, &bricks, &shown]() -> std::shared_ptr<const FieldGrid> {
         note_changes(bricks);
+        grids_->shade.idle = 0;
         grids_->shade.bring_up_to_date(bricks, shown, write_shade);
         return grids_->shade.now.field;
     };
@@ -216,6 +236,13 @@ void ShadeGrids::provide(ShadeBricks& bricks, const VoxelBox& shown, Fields& fie
     fields.provide({name_ + ".shade", "1", rule_.attenuate ? "optical depth of all shadows" : "sum of all shadows",
                     shade(), true, shade});
     light_asked_for_ = false;
+}
+
+void ShadeGrids::begin_step(const ShadeBricks& bricks) {
+    constexpr int long_idle = 8;
+    for (Grids::One* one : {&grids_->light, &grids_->shade}) {
+        if (++one->idle >= long_idle) one->forget(bricks);
+    }
 }
 
 std::span<const ShadeLeaf> ShadeGrids::light_to_write(ShadeBricks& bricks, const VoxelBox& shown) {

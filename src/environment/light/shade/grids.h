@@ -22,6 +22,9 @@ public:
     /// is asked for. Voxels that nothing shades are inactive: full light, no shade.
     void provide(ShadeBricks& bricks, const VoxelBox& shown, Fields& fields);
 
+    /// Grids that nobody has asked for in many steps give their memory back.
+    void begin_step(const ShadeBricks& bricks);
+
     /// The leaf of light of each brick, for a caller that writes all of them now, while the sums are at hand. None if
     /// the light was not asked for since the last time.
     std::span<const ShadeLeaf> light_to_write(ShadeBricks& bricks, const VoxelBox& shown);

@@ -202,6 +202,28 @@ TEST_CASE("whoever keeps a grid of shade keeps its values", "[environment]") {
     CHECK(difference(environment, second) == "");
 }
 
+TEST_CASE("grids that nobody asked for in many steps take no memory, and are whole when they are asked for", "[environment]") {
+    ChangingCrown crown(11, 300, 20);
+    Environment environment = environment_of(plain);
+    asked(environment, crown.organs());
+    const FieldGrid* light = environment.fields().need("light").grid.get();
+    const openvdb::FloatTree& tree = light->grid->tree();
+    for (int step = 0; step < 8; ++step) {
+        CHECK(tree.leafCount() > 0);
+        crown.change(step % 2 == 0 ? 0.02 : 0.5);  // brick by brick, and all again
+        asked(environment, crown.organs());
+    }
+    CHECK(tree.leafCount() == 0);
+    for (int step = 0; step < 3; ++step) {
+        Environment fresh = environment_of(plain);
+        asked(fresh, crown.organs());
+        CHECK(difference(environment, fresh) == "");
+        CHECK(environment.fields().need("light").grid.get() == light);
+        crown.change(0.02);
+        asked(environment, crown.organs());
+    }
+}
+
 TEST_CASE("fields of shade are the same with 1, 2 and 8 threads", "[environment]") {
     const auto run = [](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
