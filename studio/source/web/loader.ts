@@ -11,7 +11,7 @@ import { packedPart, packedParts, streamOf } from "./packed.js";
 /** Those of a page of one file stand before this script, as they are: what unpacks the others must not wait itself. */
 async function workerScript(): Promise<string> {
   const inside = document.getElementById("part-worker.js")?.textContent;
-  const text = inside ?? (await (await fetch("worker.js")).text());
+  const text = inside ?? (await new Response(await streamOf(packedPart("worker.js"))).text());
   return URL.createObjectURL(new Blob([text], { type: "text/javascript" }));
 }
 
