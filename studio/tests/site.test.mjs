@@ -50,15 +50,24 @@ const slow =
   "lsystem: 1\nStartEach: { i = 0; while (i < 90000) { j = 0; while (j < 90000000) { j = j + 1; } i = i + 1; } }\nderivation length: 40\naxiom: F(1) A\n" +
   "A --> F(1) A\nendlsystem\n";
 
-/** A page that notes, whenever a worker begins, whether the studio runs already. */
+/** A page that notes, whenever a worker begins, whether the studio runs already; and the steps that it hears, and when it has drawn. */
 async function openNoting(where) {
   const opened = await openPage(browser, "about:blank");
   await opened.addInitScript(() => {
     window.begins = [];
+    window.steps = [];
     window.Worker = class extends Worker {
       constructor(...given) {
         super(...given);
         window.begins.push("EspalierView" in window ? "after the studio" : "before the studio");
+        this.addEventListener("message", ({ data }) => {
+          const step = /^{"say":"growth".*"step":(-?[0-9]+)/.exec(data)?.[1];
+          if (step) window.steps.push(Number(step));
+        });
+      }
+      postMessage(message) {
+        if (message.kind === "taken") window.steps.push("drawn");
+        super.postMessage(message);
       }
     };
   });
@@ -345,6 +354,10 @@ test("two trees grow in the file that a clone holds", async () => {
   await told(held);
   await grown(held);
   assert.deepEqual(await held.evaluate(() => window.begins), ["before the studio"]);
+  const steps = await held.evaluate(() => window.steps);
+  const drawn = steps.indexOf("drawn");
+  assert.ok(steps.slice(0, drawn).every((step) => step <= 0), `${steps.slice(0, drawn)}: nothing grows on before the first picture is drawn`);
+  assert.ok(steps.slice(drawn).some((step) => step > 0));
   await rests(held);
   await shot(held, "site-live");
   assert.match(await held.locator(".document-name").textContent(), /^two-trees/);
