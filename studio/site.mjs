@@ -43,11 +43,18 @@ function policy(scripts) {
   );
 }
 
+const ownScript = '<script src="studio.js" defer></script>\n';
+/** The worker and the studio come while the page is read; the first script runs both. */
+const loader =
+  '<script src="loader.js" async></script>\n<link rel="preload" href="worker.js" as="fetch" crossorigin>\n' +
+  '<link rel="preload" href="studio.js" as="script">\n';
+
 function pageWith(head, body = "", data = {}) {
   const said = Object.entries(data).map(([name, value]) => `data-${name}="${value}" `);
   return readFileSync(join(studio, "dist/index.html"), "utf8")
     .replace("<html ", `<html data-parts="" ${said.join("")}`)
     .replace('<meta charset="utf-8">', `<meta charset="utf-8">\n${head}`)
+    .replace(ownScript, "")
     .replace("<body>\n", () => `<body>\n${body}`);
 }
 
@@ -94,25 +101,27 @@ function packedByXz(bytes) {
   return execFileSync("xz", options, { input: bytes, maxBuffer: 1 << 26 });
 }
 
-/** One file: scripts, styles and parts are elements of it. */
+/** One file: scripts, styles and parts are elements of it. The worker begins before the other parts are read. */
 function singleFile(parts, data = {}) {
   const text = (name) => readFileSync(join(studio, "dist", name), "utf8");
-  const elements = Object.entries({ ...parts, "studio.js": packedByXz(text("studio.js")) }).map(
+  const begins = [
+    `<script type="text/plain" id="part-worker.js">${inScript(worker.toString())}</script>\n`,
+    `<script>${inScript(text("loader.js"))}</script>\n`,
+  ];
+  const elements = Object.entries(parts).map(
     ([name, bytes]) => `<script type="application/base85" data-letters="${letters}" id="part-${name}">${to85(bytes)}</script>\n`,
   );
   const icon = `data:image/svg+xml;base64,${Buffer.from(text("icon.svg")).toString("base64")}`;
-  return pageWith(`<meta http-equiv="Content-Security-Policy" content="${policy("'unsafe-inline'")}">`, elements.join(""), data)
+  return pageWith(`<meta http-equiv="Content-Security-Policy" content="${policy("'unsafe-inline'")}">`, [...begins, ...elements].join(""), data)
     .replace("icon.svg", icon)
-    .replace('<link rel="stylesheet" href="studio.css">', () => `<style data-file="studio.css">${text("studio.css")}</style>`)
-    .replace('<script src="studio.js" defer></script>\n', "")
-    .replace("</body>", () => `<script>${inScript(text("loader.js"))}</script>\n</body>`);
+    .replace('<link rel="stylesheet" href="studio.css">', () => `<style data-file="studio.css">${text("studio.css")}</style>`);
 }
 
 rmSync(out, { recursive: true, force: true });
 mkdirSync(out, { recursive: true });
 const module = packedByXz(readFileSync(join(moduleFolder, "espalier.wasm")));
 const worker = Buffer.concat([readFileSync(join(moduleFolder, "espalier.js")), readFileSync(join(studio, "dist/worker.js"))]);
-const head = `<meta http-equiv="Content-Security-Policy" content="${policy("'self'")}">`;
+const head = `<meta http-equiv="Content-Security-Policy" content="${policy("'self'")}">\n${loader}`;
 const files = {
   "index.html": pageWith(head, "", { lessons: "lessons.html" }),
   "espalier.wasm.xz": module,
@@ -120,7 +129,7 @@ const files = {
   "worker.js": worker,
 };
 files["LICENSES.txt"] = licences();
-for (const name of ["studio.js", "studio.css", "icon.svg"]) files[name] = readFileSync(join(studio, "dist", name));
+for (const name of ["loader.js", "studio.js", "studio.css", "icon.svg"]) files[name] = readFileSync(join(studio, "dist", name));
 for (const [name, bytes] of Object.entries({ ...files, ...lessons(head) })) writeFileSync(join(out, name), bytes);
 for (const path of filesBelow(gallery)) {
   const place = join(out, relative(repository, path));
@@ -129,7 +138,7 @@ for (const path of filesBelow(gallery)) {
 }
 const inside = {
   "espalier.wasm.xz": module,
-  "worker.js": gzipSync(worker, { level: 9 }),
+  "studio.js": gzipSync(readFileSync(join(studio, "dist/studio.js")), { level: 9 }), // which browsers unpack beside the page's thread
   "LICENSES.txt": packedByXz(licences()),
 };
 writeFileSync(join(out, "espalier.html"), singleFile({ ...inside, "library.pack": packedByXz(packOf(libraryFiles)) }));

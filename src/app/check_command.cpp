@@ -199,10 +199,10 @@ void add(const UserError& error, Findings& findings) {
     findings.diagnostics.insert(findings.diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
 }
 
-// A model grows in spite of mistakes in the panels beside it.
-void review_panels(const fs::path& model, Findings& findings) {
-    const fs::path panels = simulation::panel_file_of(model);
-    if (!fs::is_regular_file(model) || !fs::is_regular_file(panels)) return;
+// A model or an object grows in spite of mistakes in its panels.
+void review_panels(const fs::path& opened, Findings& findings) {
+    const fs::path panels = simulation::panel_file_of(opened);
+    if (!fs::exists(opened) || !fs::is_regular_file(panels)) return;
     try {
         check_side_file(panels, findings);
     } catch (const UserError& error) {

@@ -111,6 +111,7 @@ export class Studio {
   messages: Message[] = [];
   theme: "light" | "dark";
   private ownMessages = 0;
+  private asksHelp = false;
   /** What has come so far of the plant that a sweep grows. */
   private swept: SweptPlant = nothingSwept;
   private readonly listeners: { [Name in keyof Events]?: Listener<Name>[] } = {};
@@ -126,6 +127,10 @@ export class Studio {
       broken: (why) => this.tell("error", `${why} Page and program are of different versions: load the page again.`),
     });
     this.frames = new Frames(this);
+    this.on("shown", () => requestAnimationFrame(() => void this.askHelp()));
+    this.on("problems", (problems) => {
+      if (problems.length > 0) void this.askHelp();
+    });
   }
 
   on<Name extends keyof Events>(name: Name, listener: Listener<Name>): void {
@@ -174,15 +179,16 @@ export class Studio {
   }
 
   private connected(state: ConnectionState): void {
-    if (state === "open") {
-      this.frames.connected();
-      void this.askHelp();
-    }
+    if (state === "open") this.frames.connected();
     this.emit("connection", state);
   }
 
+  /** Once there is something to see, which help would delay. */
   private async askHelp(): Promise<void> {
+    if (this.help || this.asksHelp) return;
+    this.asksHelp = true;
     const help = await this.ask("help", {});
+    this.asksHelp = false;
     if (!help) return;
     this.help = help;
     this.emit("help", help);

@@ -15,18 +15,20 @@ const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.mi
 const folder = resolve(process.argv[2] ?? "../build/web/site");
 const types = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml", ".png": "image/png" };
 const below = "/some/where/";
-const asked = new Set();
+const asked = []; // names of files
+const missing = new Set();
 let server;
 let browser;
 let page;
 let address;
 
 async function serve(request, response) {
-  asked.add(request.url);
   const path = new URL(request.url, "http://localhost").pathname;
   try {
     if (!path.startsWith(below)) throw new Error("outside");
     const name = path.slice(below.length) || "index.html";
+    asked.push(name);
+    if (missing.has(name)) throw new Error("missing");
     const bytes = await readFile(join(folder, name));
     response.writeHead(200, { "Content-Type": types[extname(name)] ?? "application/octet-stream" }).end(bytes);
   } catch {
@@ -39,6 +41,36 @@ async function openSite(where) {
   const opened = await openPage(browser, "about:blank");
   opened.requests = [];
   opened.on("request", (request) => opened.requests.push(request.url()));
+  await opened.goto(where);
+  return opened;
+}
+
+/** Its first step does not end. */
+const slow =
+  "lsystem: 1\nStartEach: { i = 0; while (i < 90000) { j = 0; while (j < 90000000) { j = j + 1; } i = i + 1; } }\nderivation length: 40\naxiom: F(1) A\n" +
+  "A --> F(1) A\nendlsystem\n";
+
+/** A page that notes, whenever a worker begins, whether the studio runs already; and the steps that it hears, and when it has drawn. */
+async function openNoting(where) {
+  const opened = await openPage(browser, "about:blank");
+  await opened.addInitScript(() => {
+    window.begins = [];
+    window.steps = [];
+    window.Worker = class extends Worker {
+      constructor(...given) {
+        super(...given);
+        window.begins.push("EspalierView" in window ? "after the studio" : "before the studio");
+        this.addEventListener("message", ({ data }) => {
+          const step = /^{"say":"growth".*"step":(-?[0-9]+)/.exec(data)?.[1];
+          if (step) window.steps.push(Number(step));
+        });
+      }
+      postMessage(message) {
+        if (message.kind === "taken") window.steps.push("drawn");
+        super.postMessage(message);
+      }
+    };
+  });
   await opened.goto(where);
   return opened;
 }
@@ -83,6 +115,37 @@ test("a tree grows in the page, and nothing outside its folder is asked for", as
   assert.deepEqual(page.problems, []);
 });
 
+test("the worker begins before the studio runs, and every part comes once, for the workers that follow, too", async () => {
+  const before = asked.length;
+  const own = await openNoting(address);
+  await told(own);
+  await grown(own);
+  assert.deepEqual(await own.evaluate(() => window.begins), ["before the studio"]);
+  await openFromGallery("Honda", own);
+  await grown(own);
+  await own.locator(".cm-content").click();
+  await own.keyboard.press("Control+A");
+  await own.keyboard.insertText(slow);
+  await own.waitForFunction(() => document.querySelector(".status").dataset.state === "growing");
+  await own.getByRole("button", { name: "Stop the growth" }).click();
+  await own.waitForFunction(() => document.querySelector(".status").dataset.state === "done");
+  assert.deepEqual(await own.evaluate(() => window.begins), ["before the studio", "after the studio"]);
+  const parts = asked.slice(before).filter((name) => /^[^/]*[.](js|xz|pack)$/.test(name));
+  assert.deepEqual(parts.sort(), ["espalier.wasm.xz", "library.pack", "loader.js", "studio.js", "worker.js"]);
+  assert.deepEqual(own.problems, []);
+  await own.context().close();
+});
+
+test("a part that is not there is told", async () => {
+  for (const name of ["espalier.wasm.xz", "worker.js"]) {
+    missing.add(name);
+    const own = await openSite(address);
+    await own.getByText(`${name} could not be loaded (404)`).first().waitFor();
+    missing.delete(name);
+    await own.context().close();
+  }
+});
+
 test("a model of the library grows, and a number that is edited changes it", async () => {
   await openFromGallery("Honda");
   await grown(page);
@@ -105,6 +168,31 @@ test("a scene with soil grows, with its fields", async () => {
   await rests(page);
   await shot(page, "site-roots");
   assert.deepEqual(page.problems, []);
+});
+
+test("sliders stand as their author has laid them out, beside a model and in a scene, and move the plant", async () => {
+  const titles = (which = page) => which.locator(".settings summary").allInnerTexts();
+  const labels = () => page.locator(".settings .setting-head label:visible").allInnerTexts();
+  await openFromGallery("ternary");
+  await grown(page);
+  await page.getByRole("tab", { name: "Settings", exact: true }).click();
+  assert.deepEqual(await titles(), ["Figure", "Fork", "Through the years"]);
+  assert.deepEqual((await labels()).map((label) => label.trim()).slice(2, 5), ["Angle with the parent", "First to second", "Second to third"]);
+  const angle = page.getByRole("slider", { name: "Angle with the parent" });
+  assert.equal(await angle.getAttribute("step"), "0.5");
+  const growth = () => page.locator(".viewport").getAttribute("data-growth");
+  const before = await growth();
+  await angle.focus();
+  await page.keyboard.press("ArrowRight");
+  await page.waitForFunction((was) => document.querySelector(".viewport").dataset.growth !== was, before);
+  await grown(page);
+  await rests(page);
+  await shot(page, "site-panels");
+
+  const scene = await openSite(`${address}#open=environments/hedge.toml`);
+  await scene.getByText("Points and shoots", { exact: true }).waitFor();
+  assert.deepEqual(await titles(scene), ["Points and shoots", "Leaves"]);
+  await scene.context().close();
 });
 
 test("a plant is exported as glTF", async () => {
@@ -187,9 +275,6 @@ test("what is saved is written into the file that was chosen once", async () => 
 });
 
 test("a step that takes too long is stopped, and the text stays", async () => {
-  const slow =
-    "lsystem: 1\nStartEach: { i = 0; while (i < 90000) { j = 0; while (j < 90000000) { j = j + 1; } i = i + 1; } }\nderivation length: 40\naxiom: F(1) A\n" +
-    "A --> F(1) A\nendlsystem\n";
   await page.locator(".cm-content").click();
   await page.keyboard.press("Control+A");
   await page.keyboard.insertText(slow);
@@ -265,9 +350,14 @@ test("a goal is reached by the slider that its author chose, on a phone", async 
 });
 
 test("two trees grow in the file that a clone holds", async () => {
-  const held = await openSite(new URL("../dist/live.html", import.meta.url).href);
+  const held = await openNoting(new URL("../dist/live.html", import.meta.url).href);
   await told(held);
   await grown(held);
+  assert.deepEqual(await held.evaluate(() => window.begins), ["before the studio"]);
+  const steps = await held.evaluate(() => window.steps);
+  const drawn = steps.indexOf("drawn");
+  assert.ok(steps.slice(0, drawn).every((step) => step <= 0), `${steps.slice(0, drawn)}: nothing grows on before the first picture is drawn`);
+  assert.ok(steps.slice(drawn).some((step) => step > 0));
   await rests(held);
   await shot(held, "site-live");
   assert.match(await held.locator(".document-name").textContent(), /^two-trees/);

@@ -321,6 +321,10 @@ TEST_CASE_METHOD(Workplace, "check reads the panels beside a model", "[app]") {
     const Outcome outcome = run("check a.l");
     CHECK(outcome.code == 1);
     CHECK_THAT(outcome.err, Contains("a.panel:1:1: a panel names its sliders"));
+    std::filesystem::create_directory(path() / "object");
+    write("object/b.l", models::bush);
+    write("object/b.panel", "[[panel]]\ntitle = 'All'\nsettings = ['ANGLE']\n");
+    CHECK_THAT(run("check object").out, Contains("b.panel: 1 slider in 1 panel"));
 }
 
 TEST_CASE_METHOD(Workplace, "checking a scene grows nothing and leaves nothing", "[app]") {

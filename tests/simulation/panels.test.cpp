@@ -76,3 +76,17 @@ TEST_CASE("a scene may have panels, which change nothing of what grows", "[panel
                       Catch::Contains("s.toml:5:"));
     CHECK(panel_file_of("models/tree.l") == "models/tree.panel");
 }
+
+TEST_CASE("the panels of an object lie beside its model, in its folder", "[panels]") {
+    const TemporaryFolder folder;
+    const std::filesystem::path object = folder.path() / "shoot";
+    std::filesystem::create_directory(object);
+    folder.write("shoot/plant.l", "lsystem: 1\nderivation length: 1\naxiom: A\nA --> F A\nendlsystem\n");
+    CHECK(panel_file_of(object) == object / "plant.panel");
+    CHECK(mistakes_in_panels_of(object).empty());
+    folder.write("shoot/plant.panel", "[[panel]]\ntitle = \"T\"\n");
+    REQUIRE(mistakes_in_panels_of(object).size() == 1);
+    CHECK(mistakes_in_panels_of(object).front().place.line == 1);
+    folder.write("shoot/other.l", "");
+    CHECK_THROWS_AS(panel_file_of(object), UserError);
+}

@@ -67,6 +67,26 @@ TEST_CASE("a page is told the panels that lie beside a model", "[studio]") {
     CHECK(studio.problems().empty());
 }
 
+TEST_CASE("a page is told the panels in the folder of an object", "[studio]") {
+    const TemporaryFolder place;
+    fs::create_directory(place.path() / "stalk");
+    place.write("stalk/plant.l", bare_stalk);
+    place.write("stalk/plant.panel", form_panel);
+    OpenStudio studio(bare_stalk);
+    studio.options.opened.path = place.path() / "stalk";
+    studio.options.read = [](const espalier::studio::Opened& opened) {
+        espalier::Scene scene = espalier::scene_of_object(espalier::simulation::read_object_folder(opened.path));
+        espalier::mistakes_in_panels_of(opened.path);
+        return scene;
+    };
+    studio.begin();
+    studio.wait_until_grown();
+    const Json panels = studio.page.last("document")["panels"];
+    REQUIRE(panels.size() == 1);
+    const Json length = panels.at(0)["sliders"].at(0);
+    CHECK((length["name"] == "plant.l:LENGTH" && length["label"] == "Internodes"));
+}
+
 TEST_CASE("panels are edited as other texts are, undone, and nothing grows anew for them", "[studio]") {
     Laid studio;
     const std::size_t packets = studio.page.packets.size();

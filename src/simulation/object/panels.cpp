@@ -1,6 +1,7 @@
 #include "simulation/object/panels.h"
 
 #include "espalier/base/file.h"
+#include "espalier/simulation/object.h"
 
 #include <fmt/format.h>
 
@@ -84,12 +85,13 @@ std::vector<Panel> read_panel_text(const std::string& text, const std::string& n
     return panels;
 }
 
-std::filesystem::path panel_file_of(const std::filesystem::path& model) {
-    return std::filesystem::path(model).replace_extension(".panel");
+std::filesystem::path panel_file_of(const std::filesystem::path& opened) {
+    std::filesystem::path model = std::filesystem::is_directory(opened) ? read_object_folder(opened).model : opened;
+    return model.replace_extension(".panel");
 }
 
-std::vector<Diagnostic> mistakes_in_panels_of(const std::filesystem::path& model) {
-    const std::filesystem::path file = panel_file_of(model);
+std::vector<Diagnostic> mistakes_in_panels_of(const std::filesystem::path& opened) {
+    const std::filesystem::path file = panel_file_of(opened);
     if (!std::filesystem::is_regular_file(file)) return {};
     try {
         read_panel_text(read_text(file), file.string());

@@ -32,9 +32,10 @@ std::vector<Panel> read_panels(const Settings& root);
 /// Of a file that holds nothing else. Throws UserError.
 std::vector<Panel> read_panel_text(const std::string& text, const std::string& name);
 
-/// The file that lays out the settings of a model: it lies beside it under the model's name.
-std::filesystem::path panel_file_of(const std::filesystem::path& model);
+/// The file that lays out the settings of a model, or of the model of an object's folder: it lies beside it under the
+/// model's name. Throws UserError if it is not clear which model a folder has.
+std::filesystem::path panel_file_of(const std::filesystem::path& opened);
 /// What is wrong with that file; nothing if there is none. It is no reason not to grow the model.
-std::vector<Diagnostic> mistakes_in_panels_of(const std::filesystem::path& model);
+std::vector<Diagnostic> mistakes_in_panels_of(const std::filesystem::path& opened);
 
 }  // namespace espalier::simulation

@@ -1,6 +1,7 @@
 #include "studio/session/panels.h"
 
 #include "espalier/base/settings.h"
+#include "espalier/simulation/object.h"
 
 #include "base/number.h"
 #include "base/text.h"
@@ -16,16 +17,29 @@ namespace {
 namespace fs = std::filesystem;
 using Numbers = std::map<std::string, DocumentTexts::Placed>;
 
+// In the folder of an object a panel names settings as it does beside a model; the studio names them with the model.
+void name_with(const fs::path& model, std::vector<Panel>& panels) {
+    for (Panel& panel : panels) {
+        for (PanelSlider& slider : panel.sliders) {
+            if (slider.setting.find(':') == slider.setting.npos)
+                slider.setting = model.filename().string() + ":" + slider.setting;
+        }
+    }
+}
+
 // A scene has its own; those of a model lie beside it.
 std::vector<Panel> panels_of(const DocumentTexts& texts, const DocumentState& state) {
     const fs::path& main = state.opened.path;
-    const bool is_scene = main.extension() == ".toml";
-    const fs::path file = is_scene ? main : panel_file_of(main);
-    if (!texts.editable(state).contains(file)) return {};
-    const std::string text = text_of(file, state);
+    const bool is_scene = main.extension() == ".toml", is_object = fs::is_directory(main);
     try {
-        if (!is_scene) return read_panel_text(text, file.string());
-        return read_panels(Settings::parse_toml(text, file.string(), file.parent_path()));
+        const fs::path model = is_object ? read_object_folder(main).model : main;
+        const fs::path file = is_scene ? main : panel_file_of(model);
+        if (!texts.editable(state).contains(file)) return {};
+        const std::string text = text_of(file, state);
+        if (is_scene) return read_panels(Settings::parse_toml(text, file.string(), file.parent_path()));
+        std::vector<Panel> panels = read_panel_text(text, file.string());
+        if (is_object) name_with(model, panels);
+        return panels;
     } catch (const UserError&) {
         return {};
     }

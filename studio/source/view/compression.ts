@@ -13,14 +13,37 @@ export function decompress(bytes: Uint8Array): Promise<Uint8Array> {
   return through(bytes as Uint8Array<ArrayBuffer>, new DecompressionStream("deflate-raw"));
 }
 
+/** Of a blob it would come by way of another process. */
+export function streamOfBytes(bytes: Uint8Array<ArrayBuffer>): ReadableStream<Uint8Array<ArrayBuffer>> {
+  return new ReadableStream({
+    start(controller) {
+      controller.enqueue(bytes);
+      controller.close();
+    },
+  });
+}
+
+/** Whether bytes begin with these, and all of them. */
+async function beginsWith(bytes: ReadableStream<Uint8Array<ArrayBuffer>>, ...these: number[]) {
+  const [beginning, whole] = bytes.tee();
+  const reader = beginning.getReader();
+  const { value } = await reader.read();
+  void reader.cancel();
+  return { begins: these.every((byte, i) => value?.[i] === byte), whole };
+}
+
+/** What is packed by gzip; other bytes stay as they are. */
+export async function ungzipped(bytes: ReadableStream<Uint8Array<ArrayBuffer>>): Promise<Response> {
+  const { begins, whole } = await beginsWith(bytes, 0x1f, 0x8b);
+  return new Response(begins ? whole.pipeThrough(new DecompressionStream("gzip")) : whole);
+}
+
 /** What is packed by xz or gzip; other bytes stay as they are. */
-export async function unpacked(bytes: Uint8Array): Promise<ArrayBuffer> {
-  const packed = new Blob([bytes as Uint8Array<ArrayBuffer>]).stream();
-  const is = (...letters: number[]) => letters.every((letter, i) => bytes[i] === letter);
-  if (is(0x1f, 0x8b)) return new Response(packed.pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
-  if (!is(0xfd, 0x37)) return new Response(packed).arrayBuffer();
+export async function unpacked(bytes: ReadableStream<Uint8Array<ArrayBuffer>>): Promise<Response> {
+  const { begins, whole } = await beginsWith(bytes, 0xfd, 0x37);
+  if (!begins) return ungzipped(whole);
   const { XzReadableStream } = await import("xz-decompress");
-  return new Response(new XzReadableStream(packed)).arrayBuffer();
+  return new Response(new XzReadableStream(whole));
 }
 
 /** Bytes that are written with 85 letters: five are four bytes, the last letter of them the least. Fewer at the end: one less byte. */

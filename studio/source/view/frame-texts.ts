@@ -1,11 +1,11 @@
 /** What a recording tells of its frames, several in one text: src/studio/server/frame_texts.h. */
 import { at } from "../lists.js";
-import { decompress, fromBase64, fromLetters, unpacked } from "./compression.js";
+import { decompress, fromBase64, fromLetters, streamOfBytes, unpacked } from "./compression.js";
 
 const mostKept = 3; // texts, which may have tens of MB each
 
 async function textBytes(text: string, letters: string | undefined): Promise<ArrayBuffer> {
-  if (letters) return unpacked(fromLetters(text, letters));
+  if (letters) return (await unpacked(streamOfBytes(fromLetters(text, letters)))).arrayBuffer();
   const bytes = await decompress(fromBase64(text));
   return bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength) as ArrayBuffer;
 }

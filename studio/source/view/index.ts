@@ -10,5 +10,5 @@ export type { AuthorLook, SkyLook } from "./light.js";
 export type { MeasuredShape } from "./measured.js";
 export { PlantScene } from "./scene3d.js";
 export { steer } from "./steer.js";
-export { compress, decompress, fromBase64, fromLetters, toBase64, unpacked, urlSafe } from "./compression.js";
+export { compress, decompress, fromBase64, fromLetters, streamOfBytes, toBase64, ungzipped, unpacked, urlSafe } from "./compression.js";
 export { playRecording, type Recording } from "./recording.js";

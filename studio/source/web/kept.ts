@@ -47,6 +47,12 @@ export async function keptFiles(): Promise<KeptFile[]> {
   return [...files];
 }
 
+/** The first worker began with these. */
+export function haveRead(kept: readonly KeptFile[]): void {
+  isRead = true;
+  for (const [path, bytes] of kept) if (bytes) files.set(path, bytes);
+}
+
 export function keepFiles(changed: KeptFile[]): void {
   for (const [path, bytes] of changed) {
     if (bytes) files.set(path, bytes);

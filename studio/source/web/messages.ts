@@ -1,4 +1,5 @@
 /** What the page and the worker of its session tell each other. */
+import type { Packed } from "./packed.js";
 
 /** A file of the session, by its path; null: it is gone. */
 export type KeptFile = [path: string, bytes: Uint8Array<ArrayBuffer> | null];
@@ -15,11 +16,19 @@ export interface Begin {
   memory?: number;
 }
 
+/** What a worker needs besides its script. */
+export interface Parts {
+  module: WebAssembly.Module;
+  library: ArrayBuffer;
+}
+
+export type PackedParts = Record<keyof Parts, Packed>;
+
 export type ToWorker =
   | {
       kind: "begin";
-      module: WebAssembly.Module;
-      library: ArrayBuffer;
+      /** What is packed is loaded by the worker, which tells it for those that follow. */
+      parts: Parts | PackedParts;
       kept: KeptFile[];
       begin: Begin;
       /** ms in which only requests are answered. */
@@ -33,6 +42,9 @@ export type ToWorker =
 export type FromWorker =
   | string
   | ArrayBuffer
+  /** The script of the worker is there. */
+  | { kind: "runs" }
+  | ({ kind: "loaded" } & Parts)
   | { kind: "ready" }
   | { kind: "failed"; why: string }
   | { kind: "heard" }
@@ -40,3 +52,13 @@ export type FromWorker =
   | { kind: "file"; number: number; bytes: Uint8Array<ArrayBuffer> | null }
   /** A file that lies beside the page, by its path from there. */
   | { kind: "beside"; number: number; path: string };
+
+/** The session that a page's first script has begun, which the studio takes over. */
+export interface Begun {
+  script: string;
+  worker: Worker;
+  /** The files with which it began. */
+  kept: KeptFile[];
+  /** What it has said since. */
+  heard: FromWorker[];
+}

@@ -1,8 +1,10 @@
 /** The session in a worker of this page: nothing is sent anywhere, and nothing needs to be installed. */
 import type { Transport, TransportEvents } from "../transport.js";
-import { keepFiles, keptFiles } from "./kept.js";
-import type { Begin, FromWorker, KeptFile, ToWorker } from "./messages.js";
+import { howToBegin } from "./beginning.js";
+import { haveRead, keepFiles, keptFiles } from "./kept.js";
+import type { FromWorker, KeptFile, Parts, ToWorker } from "./messages.js";
 import { saveOwnFiles } from "./own-files.js";
+import { packedParts } from "./packed.js";
 import { part } from "./parts.js";
 
 export { hasOwnSession } from "./parts.js";
@@ -11,34 +13,10 @@ export { hasOwnSession } from "./parts.js";
 const urgent = new Set(["stop", "change", "graph", "points", "view-value", "undo", "redo", "open", "open-text", "export"]);
 const patience = 900; // ms
 
-const firstTree = "/library/environments/tree.toml";
-/** A page of one growth says its file, its seed and its steps. */
-function howToBegin(isFirst: boolean): Begin {
-  const { open, seed, steps } = document.documentElement.dataset;
-  if (!open) return { open: firstTree, seed: Math.floor(Math.random() * 1000) };
-  const begin: Begin = { open, named: isFirst }; // those that follow begin with what is kept
-  if (seed) begin.seed = Number(seed);
-  if (steps) begin.steps = Number(steps);
-  return begin;
-}
-
-interface Parts {
-  module: WebAssembly.Module;
-  library: ArrayBuffer;
-  script: string;
-}
-
-/** Loaded once: workers that follow begin with them. */
-let loaded: Promise<Parts> | null = null;
-
-async function load(): Promise<Parts> {
-  const [module, library, script] = await Promise.all([
-    part("espalier.wasm.xz").then((bytes) => WebAssembly.compile(bytes)),
-    part("library.pack"),
-    part("worker.js").then((bytes) => URL.createObjectURL(new Blob([bytes], { type: "text/javascript" }))),
-  ]);
-  return { module, library, script };
-}
+/** Loaded by the first worker: those that follow begin with them. */
+let parts: Parts | null = null;
+/** Whether the worker that the page's first script has begun is in use, or was. */
+let firstIsTaken = false;
 
 const state = "/state/studio.json";
 const markOfOpening = `${state}.opening`; // the session opens nothing that ended the one before
@@ -66,9 +44,8 @@ export class WorkerTransport implements Transport {
   private ready = false;
   private readonly unheard: string[] = [];
   private saves = 0;
-  private begins = 0;
+  private tookFirst = false;
   private readonly files = new Map<number, (bytes: Uint8Array<ArrayBuffer> | null) => void>();
-
 
   constructor(private readonly events: TransportEvents) {
     this.begin().catch((error) => events.closed(error instanceof Error ? error.message : String(error)));
@@ -100,18 +77,29 @@ export class WorkerTransport implements Transport {
   }
 
   private async begin(): Promise<void> {
-    const { module, library, script } = await (loaded ??= load());
+    const begun = await window.espalierBegun;
+    if (!begun) throw new Error("The page has no session.");
+    if (!firstIsTaken) {
+      firstIsTaken = true;
+      haveRead(begun.kept);
+      this.use(begun.worker);
+      for (const data of begun.heard) this.hear(data);
+      return;
+    }
     const kept = await keptFiles();
-    const begin = howToBegin(this.begins++ === 0);
-    this.worker = new Worker(script);
-    this.worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.hear(data);
-    this.worker.onerror = (event) => {
+    const { files, rests } = next ?? { files: (all: KeptFile[]) => all, rests: 0 };
+    next = null;
+    this.use(new Worker(begun.script));
+    this.post({ kind: "begin", parts: parts ?? packedParts(), kept: files(kept), begin: howToBegin(false), rests });
+  }
+
+  private use(worker: Worker): void {
+    this.worker = worker;
+    worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.hear(data);
+    worker.onerror = (event) => {
       event.preventDefault();
       this.end();
     };
-    const { files, rests } = next ?? { files: (all: KeptFile[]) => all, rests: 0 };
-    next = null;
-    this.post({ kind: "begin", module, library, kept: files(kept), begin, rests });
   }
 
   private hear(data: FromWorker): void {
@@ -120,7 +108,9 @@ export class WorkerTransport implements Transport {
       this.events.received(data);
     } else if (data instanceof ArrayBuffer) {
       this.events.received(data);
-      this.post({ kind: "taken" });
+      this.take();
+    } else if (data.kind === "loaded") {
+      parts = data;
     } else if (data.kind === "ready") {
       this.ready = true;
       this.events.opened();
@@ -136,9 +126,18 @@ export class WorkerTransport implements Transport {
         (bytes) => this.hand(data.number, new Uint8Array(bytes)),
         () => this.hand(data.number, null),
       );
-    } else {
+    } else if (data.kind === "failed") {
       this.end(data.why);
     }
+  }
+
+  /** The first plant is drawn before the worker grows on. */
+  private take(): void {
+    const { worker } = this;
+    const tell = () => worker?.postMessage({ kind: "taken" } satisfies ToWorker);
+    if (this.tookFirst || document.hidden) tell();
+    else requestAnimationFrame(() => setTimeout(tell));
+    this.tookFirst = true;
   }
 
   private hand(number: number, bytes: Uint8Array<ArrayBuffer> | null): void {

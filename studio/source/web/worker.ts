@@ -1,6 +1,8 @@
 /** The worker that holds a page's session: the module, its files, and turns between two messages. */
-import type { FromWorker, KeptFile, ToWorker } from "./messages.js";
+import { unpacked } from "../view/index.js";
 import { unpackLibrary } from "./library-pack.js";
+import type { FromWorker, KeptFile, PackedParts, Parts, ToWorker } from "./messages.js";
+import { streamOf, type Packed } from "./packed.js";
 
 interface FileSystem {
   mkdirTree(path: string): void;
@@ -32,6 +34,9 @@ const kept = ["/state", "/home"]; // folders whose files the page keeps
 let module: Module | null = null;
 let works = false;
 let restsTo = 0; // in which time nothing grows
+/** Nothing grows on before the page has shown the first plant: it has few processors, and needs them for that. */
+let waitsForPage = false;
+let pageHasTaken = false;
 let known = new Map<string, string>();
 const next = new MessageChannel();
 
@@ -64,31 +69,65 @@ function tellKept({ FS }: Module): void {
 function work(): void {
   if (!module) return;
   const end = performance.now() + turns;
-  do works = call("turn", "number") === 1;
+  do works = call("turn", "number") === 1 && !waitsForPage;
   while (works && performance.now() < end);
   if (works) next.port2.postMessage(0);
 }
 next.port1.onmessage = work;
 
 function workOn(): void {
-  if (works || performance.now() < restsTo) return;
+  if (works || waitsForPage || performance.now() < restsTo) return;
   works = true;
   next.port2.postMessage(0);
 }
 
+function sent(bytes: ArrayBuffer): void {
+  self.postMessage(bytes, [bytes]);
+  waitsForPage = !pageHasTaken;
+}
+
+function taken(): void {
+  call("taken");
+  pageHasTaken = true;
+  waitsForPage = false;
+  workOn();
+}
+
+/** Compiled as it comes. */
+async function compiled(packed: Packed): Promise<WebAssembly.Module> {
+  const { body } = await unpacked(await streamOf(packed));
+  return WebAssembly.compileStreaming(new Response(body, { headers: { "Content-Type": "application/wasm" } }));
+}
+
+async function bytesOf(packed: Packed): Promise<ArrayBuffer> {
+  const bytes = await unpacked(await streamOf(packed));
+  return bytes.arrayBuffer();
+}
+
+async function load(packed: PackedParts): Promise<Parts> {
+  const [module, library] = await Promise.all([compiled(packed.module), bytesOf(packed.library)]);
+  self.postMessage({ kind: "loaded", module, library });
+  return { module, library };
+}
+
+function areLoaded(parts: Parts | PackedParts): parts is Parts {
+  return parts.module instanceof WebAssembly.Module;
+}
+
 async function begin(message: ToWorker & { kind: "begin" }): Promise<void> {
+  const parts = areLoaded(message.parts) ? message.parts : await load(message.parts);
   const made = await createEspalier({
     said: (text: string) => self.postMessage(text),
-    sent: (bytes: ArrayBuffer) => self.postMessage(bytes, [bytes]),
+    sent,
     print: () => undefined,
     printErr: () => undefined,
     instantiateWasm: (imports: WebAssembly.Imports, done: (instance: WebAssembly.Instance) => void) => {
-      void WebAssembly.instantiate(message.module, imports).then(done);
+      void WebAssembly.instantiate(parts.module, imports).then(done);
       return {};
     },
   });
   for (const folder of ["/library", "/scratch", ...kept]) made.FS.mkdirTree(folder);
-  unpackLibrary(message.library, (path, bytes) => write(made.FS, library + path, bytes));
+  unpackLibrary(parts.library, (path, bytes) => write(made.FS, library + path, bytes));
   for (const [path, bytes] of message.kept) if (bytes) write(made.FS, path, bytes);
   made.FS.chdir("/library");
   module = made;
@@ -124,7 +163,7 @@ function hear(message: ToWorker): void {
     return;
   }
   if (!module) return;
-  if (message.kind === "taken") call("taken");
+  if (message.kind === "taken") taken();
   else if (message.kind === "file") sendFile(module, message.number);
   else {
     call("receive", null, message.text);
@@ -136,3 +175,4 @@ function hear(message: ToWorker): void {
 }
 
 self.onmessage = ({ data }) => hear(data);
+self.postMessage({ kind: "runs" });
