@@ -230,6 +230,16 @@ std::filesystem::path Settings::path(std::string_view key) const {
     return given.is_absolute() ? given : (node_->folder / given).lexically_normal();
 }
 
+std::optional<double> Settings::number_if_any(std::string_view key, Range range) const {
+    if (!has(key)) return std::nullopt;
+    return number(key, range);
+}
+
+std::optional<std::string> Settings::text_if_any(std::string_view key) const {
+    if (!has(key)) return std::nullopt;
+    return text(key);
+}
+
 std::optional<std::filesystem::path> Settings::path_if_any(std::string_view key) const {
     if (!has(key)) return std::nullopt;
     return path(key);

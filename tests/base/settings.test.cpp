@@ -119,6 +119,16 @@ TEST_CASE("paths are relative to the file that says them", "[base]") {
     CHECK(root.path("model") == "/m/a.l");
 }
 
+TEST_CASE("values that may be absent are nothing then, and are read as others where they stand", "[base]") {
+    const Settings root = Settings::parse_toml("step = -2\nunit = 'm'\n", "s.toml");
+    CHECK(root.number_if_any("step") == -2);
+    CHECK(root.text_if_any("unit") == "m");
+    CHECK_FALSE(root.number_if_any("lowest"));
+    CHECK_FALSE(root.text_if_any("label"));
+    CHECK_THROWS_WITH(root.number_if_any("step", Range::positive()), Catch::Contains("s.toml:1"));
+    CHECK_THROWS_AS(root.text_if_any("step"), UserError);
+}
+
 TEST_CASE("lists of tables and keys that a reader only looks for are offered where a name is misspelt", "[settings]") {
     const Settings settings = Settings::parse_toml("layres = 1\n", "soil.toml");
     CHECK(settings.tables("layers").empty());

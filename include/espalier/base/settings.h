@@ -53,6 +53,10 @@ public:
     bool has(std::string_view key) const;
     Place place(std::string_view key = {}) const;  ///< where a key stands, or the table itself
 
+    /// Nothing if the key is absent.
+    std::optional<double> number_if_any(std::string_view key, Range range = Range::any()) const;
+    std::optional<std::string> text_if_any(std::string_view key) const;
+
     // Required values.
     double number(std::string_view key, Range range = Range::any()) const;
     std::int64_t integer(std::string_view key, Range range = Range::any()) const;

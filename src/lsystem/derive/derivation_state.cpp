@@ -58,7 +58,8 @@ bool Derivation::State::keeps_lineage(bool asked) const {
 }
 
 void Derivation::State::dry_run(const std::function<void(Services& silent)>& work) {
-    ModelFiles scratch_files(settings.input_folder, {});
+    const std::filesystem::path nowhere;
+    ModelFiles scratch_files(settings.input_folder, nowhere);
     Services silent = services;
     silent.print = [](const std::string&) {};
     silent.warn = [](const Place&, const std::string&) {};

@@ -51,8 +51,8 @@ std::optional<std::string> text_of(const fs::path& path, const Place& place) {
 
 }  // namespace
 
-ModelFiles::ModelFiles(fs::path input_folder, fs::path output_folder)
-    : input_(std::move(input_folder)), output_(std::move(output_folder)) {}
+ModelFiles::ModelFiles(const fs::path& input_folder, const fs::path& output_folder)
+    : input_(input_folder), output_(output_folder) {}
 
 ModelFiles::~ModelFiles() {
     const StopRequest* const request = StopRequest::current();

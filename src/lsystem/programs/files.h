@@ -19,7 +19,8 @@ namespace espalier::lsystem {
 /// folder. All functions may be called by several threads.
 class ModelFiles {
 public:
-    ModelFiles(std::filesystem::path input_folder, std::filesystem::path output_folder);
+    /// The folders outlive it: of many plants each has one of these.
+    ModelFiles(const std::filesystem::path& input_folder, const std::filesystem::path& output_folder);
     ~ModelFiles();
     ModelFiles(const ModelFiles&) = delete;
 
@@ -66,7 +67,7 @@ private:
     Open* opened(double handle);
     void write_out(const std::string& name, Contents& contents);
 
-    std::filesystem::path input_, output_;
+    const std::filesystem::path &input_, &output_;
     std::map<int, Open> open_;
     std::map<std::string, std::shared_ptr<Contents>> written_;  ///< by the model, open or closed
     std::size_t bytes_ = 0;                                     ///< bytes of all that was written

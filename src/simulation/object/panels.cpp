@@ -12,23 +12,13 @@ namespace {
 
 constexpr double most_columns = 4;
 
-std::optional<double> number_if_any(const Settings& table, const char* key, Range range = Range::any()) {
-    if (!table.has(key)) return std::nullopt;
-    return table.number(key, range);
-}
-
-std::optional<std::string> text_if_any(const Settings& table, const char* key) {
-    if (!table.has(key)) return std::nullopt;
-    return table.text(key);
-}
-
 PanelSlider read_slider(const Settings& table) {
     PanelSlider slider{.setting = table.text("name"),
-                       .label = text_if_any(table, "label"),
-                       .unit = text_if_any(table, "unit"),
-                       .lowest = number_if_any(table, "lowest"),
-                       .highest = number_if_any(table, "highest"),
-                       .step = number_if_any(table, "step", Range::positive()),
+                       .label = table.text_if_any("label"),
+                       .unit = table.text_if_any("unit"),
+                       .lowest = table.number_if_any("lowest"),
+                       .highest = table.number_if_any("highest"),
+                       .step = table.number_if_any("step", Range::positive()),
                        .place = table.place("name")};
     if (slider.lowest && slider.highest && *slider.lowest >= *slider.highest) {
         throw UserError(table.place("lowest"), "'lowest' of a slider must be less than 'highest'");

@@ -34,8 +34,11 @@ GrowingPlant::GrowingPlant(std::uint32_t plant, const Plant& from, std::shared_p
       model_(&source_of(*from.model)),
       symbols_(std::move(symbols)),
       insertions_(from),
-      settings_(settings) {
-    if (from.in_time) numbers = std::make_unique<lsystem::KeptNumbers>();
+      stage_key_(settings.seed, settings.plant, Stream::stage) {
+    if (from.in_time) {
+        numbers = std::make_unique<lsystem::KeptNumbers>();
+        regrowth_ = std::make_unique<DerivationSettings>(settings);
+    }
     note_derived();
 }
 
@@ -127,7 +130,7 @@ void GrowingPlant::derive(ModuleString* spare) {
 
 // The seed and the steps are those of every other time, so that an organ keeps its identity and its random numbers.
 void GrowingPlant::regrow(ModuleString& to) {
-    regrown_ = std::make_unique<Derivation>(description->in_time->at_step(derivation.steps_done()), settings_);
+    regrown_ = std::make_unique<Derivation>(description->in_time->at_step(derivation.steps_done()), *regrowth_);
     regrown_->set_lineage(true);
     ModuleString from;
     regrown_->start(to);
@@ -173,8 +176,7 @@ void GrowingPlant::interpret(const FieldValues& fields, double time) {
     if (is_plain_ || description->stages.empty()) return;
     Interpretation& staged = staged_.for_writing();
     staged = result;
-    const RandomKey key(settings_.seed, settings_.plant, Stream::stage);
-    StagedPlant plant{staged.geometry, *string, key, description->turtle.pose.heading, time};
+    StagedPlant plant{staged.geometry, *string, stage_key_, description->turtle.pose.heading, time};
     apply(now ? now->stages : description->stages, plant);
     is_staged_ = true;
 }

@@ -154,8 +154,9 @@ private:
 
     Reusable<ModuleString> previous_;  // the string of the step before; the next one is written in its memory
     Reusable<Interpretation> staged_;
-    DerivationSettings settings_;
-    std::unique_ptr<Derivation> regrown_;  ///< derivation of a plant that grows anew in every step
+    RandomKey stage_key_;
+    std::unique_ptr<const DerivationSettings> regrowth_;  ///< of a plant that grows anew in every step; else null
+    std::unique_ptr<Derivation> regrown_;                 ///< its derivation of this step
 };
 
 }  // namespace espalier::simulation

@@ -19,6 +19,7 @@ namespace {
 
 constexpr int edge = ShadeBricks::edge;
 constexpr int stretch_bricks = 8;  // long enough that beginning one costs little, short enough to share out
+constexpr std::size_t most_kept = 1 << 20;  // pyramids, 20 MiB of them, for which memory is kept between two runs
 constexpr int slice_bricks = 64;   // along z; eight running rows fit into the first cache
 
 /// A sweep as the loops over single voxels see it.
@@ -217,6 +218,8 @@ void ShadeSweep::run(const ShadeCasts& casts, const VoxelBox& box, ShadeBricks& 
     list_stretches(bricks);
     leaves_ = leaves ? leaves() : std::span<const ShadeLeaf>();
     for_in_parallel(std::size_t{0}, stretches_.size(), [&](std::size_t i) { sweep(casts, stretches_[i], bricks); });
+    if (sorted_.capacity() > most_kept) sorted_ = Column<SlicedCast>();  // frees its memory; = {} would not
+    if (spare_.capacity() > most_kept) spare_ = Column<SlicedCast>();
 }
 
 std::size_t ShadeSweep::bytes(const ShadeCasts& casts) {
