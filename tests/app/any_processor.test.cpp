@@ -46,7 +46,8 @@ std::string steps_of(const fs::path& scene) {
 
 }  // namespace
 
-TEST_CASE_METHOD(Workplace, "scenes of every process grow to the same bytes on a processor without fused multiply-add", "[app]") {
+TEST_CASE_METHOD(Workplace, "scenes of every process grow to the same bytes on a processor without fused multiply-add",
+                 "[app]") {
     // Pictures of leaves are recorded by their path from where the program runs.
     const std::string at_source = "cd '" + std::string(ESPALIER_SOURCE_DIR) + "' && ";
     const std::string folder = "'" + (path() / "first").string() + "'";

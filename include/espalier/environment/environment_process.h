@@ -100,9 +100,9 @@ enum class Spreading {
     plants,   ///< all queries, all strings, and all that is drawn
 };
 
-/// What a process is besides which reads each query by itself. Of plants that are not in memory it is given parts of the
-/// queries, each of whole plants, and memory holds no more than one part. In a step, in this order: `begin`; `take` for
-/// each part; `settle`; `answer_part` for each part again.
+/// What a process is besides which reads each query by itself. Of plants that are not in memory it is given parts of
+/// the queries, each of whole plants, and memory holds no more than one part. In a step, in this order: `begin`; `take`
+/// for each part; `settle`; `answer_part` for each part again.
 class TakesParts {
 public:
     virtual ~TakesParts() = default;

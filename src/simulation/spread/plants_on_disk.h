@@ -72,7 +72,7 @@ private:
     const bool holds_queries_;
     std::vector<Place> places_;  ///< of each plant
     Part shown_;
-    std::vector<Waiting> waiting_;      ///< of plants that are shown
+    std::vector<Waiting> waiting_;  ///< of plants that are shown
     QueryColumn of_one_;
     environment::WaitingQueries of_all_;
     std::array<std::optional<ScratchFile>, 2> files_;

@@ -217,8 +217,10 @@ TEST_CASE("one thread and two give the same bytes, of answers and of fields", "[
     CHECK(std::equal(middle.begin(), middle.begin() + 14, middle.begin() + 14));
 }
 
-TEST_CASE("queries that come in parts, of plants that are not in memory, are answered as all at once", "[environment]") {
-    for (const std::string& scene : {palubicki, palubicki + "periodic = true\ndomain = { lower = [-8, -9, -6], upper = [8, 30, 6] }\n"}) {
+TEST_CASE("queries that come in parts, of plants that are not in memory, are answered as all at once",
+          "[environment]") {
+    for (const std::string& scene :
+         {palubicki, palubicki + "periodic = true\ndomain = { lower = [-8, -9, -6], upper = [8, 30, 6] }\n"}) {
         Environment whole = environment_of(scene), parts = environment_of(scene);
         AskingPlants all, waiting;
         const std::vector<Asked> questions = crown(9000);

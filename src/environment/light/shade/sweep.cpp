@@ -18,9 +18,9 @@ namespace espalier::environment {
 namespace {
 
 constexpr int edge = ShadeBricks::edge;
-constexpr int stretch_bricks = 8;  // long enough that beginning one costs little, short enough to share out
+constexpr int stretch_bricks = 8;           // long enough that beginning one costs little, short enough to share out
 constexpr std::size_t most_kept = 1 << 20;  // pyramids, 20 MiB of them, for which memory is kept between two runs
-constexpr int slice_bricks = 64;   // along z; eight running rows fit into the first cache
+constexpr int slice_bricks = 64;            // along z; eight running rows fit into the first cache
 
 /// A sweep as the loops over single voxels see it.
 struct Pass {

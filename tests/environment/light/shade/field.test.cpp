@@ -202,7 +202,8 @@ TEST_CASE("whoever keeps a grid of shade keeps its values", "[environment]") {
     CHECK(difference(environment, second) == "");
 }
 
-TEST_CASE("grids that nobody asked for in many steps take no memory, and are whole when they are asked for", "[environment]") {
+TEST_CASE("grids that nobody asked for in many steps take no memory, and are whole when they are asked for",
+          "[environment]") {
     ChangingCrown crown(11, 300, 20);
     Environment environment = environment_of(plain);
     asked(environment, crown.organs());
