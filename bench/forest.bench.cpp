@@ -10,10 +10,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <benchmark/benchmark.h>
 #include <cmath>
 #include <fstream>
 #include <malloc.h>
+#include <optional>
 #include <string>
 
 namespace espalier::bench {
@@ -71,25 +73,43 @@ double resident_kilobytes() {
     return 0;
 }
 
-/// What a tree takes more in a larger stand of which nothing is recorded.
+/// The most that a stand of which nothing is recorded takes in the last steps; `resident`: of so many trees in memory
+/// at a time, the others wait on disk.
+double kilobytes_of_stand(std::int64_t trees, std::optional<std::int64_t> resident) {
+    const TemporaryFolder folder;
+    malloc_trim(0);
+    const double before = resident_kilobytes();
+    WorldOptions options;
+    options.is_looked_at = false;  // as in a run
+    if (resident) options.blocks = BlocksOnDisk{folder.path(), static_cast<std::size_t>(trees / *resident)};
+    World world(forest(trees), options);
+    world.start();
+    double most = 0;
+    while (world.steps_done() < steps) {
+        world.step();
+        most = std::max(most, resident_kilobytes());
+    }
+    return most - before;
+}
+
+/// What a tree takes more in a larger stand.
 void memory_of_a_tree(benchmark::State& state) {
-    const auto grown = [](std::int64_t trees) {
-        malloc_trim(0);
-        const double before = resident_kilobytes();
-        WorldOptions options;
-        options.is_looked_at = false;  // as in a run
-        World world(forest(trees), options);
-        world.start();
-        while (world.steps_done() < steps) world.step();
-        return resident_kilobytes() - before;
-    };
     constexpr std::int64_t few = 100, many = 900;
     for (auto _ : state) {
-        const double small = grown(few), large = grown(many);
+        const double small = kilobytes_of_stand(few, {}), large = kilobytes_of_stand(many, {});
         state.counters["value"] = (large - small) / (many - few);
     }
 }
 BENCHMARK(memory_of_a_tree)->Iterations(1);
+
+void memory_of_a_waiting_tree(benchmark::State& state) {
+    constexpr std::int64_t few = 900, many = 4900, resident = 100;
+    for (auto _ : state) {
+        const double small = kilobytes_of_stand(few, resident), large = kilobytes_of_stand(many, resident);
+        state.counters["value"] = (large - small) / (many - few);
+    }
+}
+BENCHMARK(memory_of_a_waiting_tree)->Iterations(1);
 
 /// The last steps of a stand and their frames.
 void forest_recorded(benchmark::State& state) {
@@ -183,6 +203,12 @@ const Row memory{"memory of a tree of environments/forest.toml, of which nothing
                  Row::Measure::value,
                  Row::Goal::at_most,
                  150};
+const Row waiting_memory{"memory of a tree of the same, of which 100 are in memory at a time, kB",
+                         "memory_of_a_waiting_tree/iterations:1",
+                         "",
+                         Row::Measure::value,
+                         Row::Goal::at_most,
+                         30};
 const Row recorded{"recording a forest of 1,000 trees, against growing it",
                    "forest_recorded/1000/iterations:1/manual_time",
                    "",
