@@ -65,14 +65,17 @@ void write_turtle_answers(const WorldView& world, std::span<ModuleString*> strin
 
 void Environment::exchange(const WorldView& world, std::span<ModuleString*> strings) {
     assert(strings.size() == world.plants.size());
-    if (world.waiting && takes_parts()) return exchange_in_parts(*taker_of_parts(), world, strings);
-    gather(world);
-    for (std::size_t process = 0; process < processes_.size(); ++process) {
-        if (!batches_[process].queries.empty()) asked_[process] = true;
-        consult(process, world);
+    if (TakesParts* taker = world.waiting ? taker_of_parts() : nullptr) {
+        exchange_in_parts(*taker, world, strings);
+    } else {
+        gather(world);
+        for (std::size_t process = 0; process < processes_.size(); ++process) {
+            if (!batches_[process].queries.empty()) asked_[process] = true;
+            consult(process, world);
+        }
+        // Only now: the queries' parameters point into these strings.
+        for (const Batch& batch : batches_) write_answers(batch, strings);
     }
-    // Only now: the queries' parameters point into these strings.
-    for (const Batch& batch : batches_) write_answers(batch, strings);
     write_defaults(strings);
     write_turtle_answers(world, strings);
     // Until the next exchange others need the room.
@@ -91,26 +94,20 @@ TakesParts* Environment::taker_of_parts() const {
 }
 
 void Environment::exchange_in_parts(TakesParts& taker, const WorldView& world, std::span<ModuleString*> strings) {
-    {
-        const Answering::Turn turn(*answering_, names_.front());
-        have_work(0, world.step, [&] { taker.begin(); });
-        for_parts(world, [&](Batch& batch) {
-            asked_.front() = true;
-            have_work(0, world.step, [&] { taker.take(batch.queries); });
-        });
-        have_work(0, world.step, [&] { taker.settle(); });
-        for_parts(world, [&](Batch& batch) {
-            begin_answers(batch);
-            have_work(0, world.step, [&] { taker.answer_part(batch.queries, batch.answers); });
-            require_finite(0, world);
-            // What is asked later is of other plants.
-            write_answers(batch, strings);
-        });
-    }
-    write_defaults(strings);
-    write_turtle_answers(world, strings);
-    batches_.front().copies = QueryColumn();
-    note_memory();
+    const Answering::Turn turn(*answering_, names_.front());
+    have_work(0, world.step, [&] { taker.begin(); });
+    for_parts(world, [&](Batch& batch) {
+        asked_.front() = true;
+        have_work(0, world.step, [&] { taker.take(batch.queries); });
+    });
+    have_work(0, world.step, [&] { taker.settle(); });
+    for_parts(world, [&](Batch& batch) {
+        begin_answers(batch);
+        have_work(0, world.step, [&] { taker.answer_part(batch.queries, batch.answers); });
+        require_finite(0, world);
+        // What is asked later is of other plants.
+        write_answers(batch, strings);
+    });
 }
 
 // Calls use(batch) for the queries of some plants after the other, in plant order, then string order.
