@@ -15,8 +15,9 @@ public:
 
     void clear();
     void add(std::uint32_t plant, double value);
+    /// Parameter `index` of every answer that has it. Queries in the order of the plants.
     void add(Queries queries, std::span<const Answer> answers, std::size_t index = 0);
-    /// After clear: parameter `index` of every answer that has it. Queries in the order of the plants.
+    /// The same, after clear.
     void sum_up(Queries queries, std::span<const Answer> answers, std::size_t index = 0);
 
     /// mean, min, max and queries of one plant; but for the queries, NaN where it asked nothing.
