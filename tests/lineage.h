@@ -24,7 +24,7 @@ inline void set_lineage(ModuleString& string, std::size_t module, Identity ident
     const std::uint64_t place = unmixed(identity) ^ mix(parent, step);
     const std::size_t row = string.siblings.size();
     string.siblings = string.siblings.grown(1);
-    string.siblings.added(row) = {parent, step, static_cast<std::uint32_t>(place >> 32)};
+    string.siblings.added(row) = {parent, step, static_cast<std::uint32_t>(place >> 32), /*first_number=*/0};
     string.births[module] = {static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(place)};
 }
 

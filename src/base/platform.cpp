@@ -46,8 +46,13 @@ std::error_code error_unless(bool done) {
 
 int flags_of(OpenFile::Mode mode) {
     constexpr int always = O_WRONLY | O_CLOEXEC | O_NOFOLLOW;
+    if (mode == OpenFile::Mode::scratch) return O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW;
     if (mode == OpenFile::Mode::create || mode == OpenFile::Mode::create_private) return always | O_CREAT | O_TRUNC;
     return mode == OpenFile::Mode::append ? always | O_APPEND : always;
+}
+
+bool is_private(OpenFile::Mode mode) {
+    return mode == OpenFile::Mode::create_private || mode == OpenFile::Mode::scratch;
 }
 
 /// No error, or the system's.
@@ -137,7 +142,7 @@ bool connected_pair(int (&ends)[2]) {
 // --- files ----------------------------------------------------------------------------------------------------------
 
 OpenFile::OpenFile(const fs::path& path, Mode mode, std::error_code& error)
-    : number_(::open(path.c_str(), flags_of(mode), mode == Mode::create_private ? 0600 : 0666)) {
+    : number_(::open(path.c_str(), flags_of(mode), is_private(mode) ? 0600 : 0666)) {
     error = error_unless(is_open());
 }
 
@@ -181,6 +186,18 @@ std::error_code OpenFile::write_at(std::size_t place, std::string_view bytes) {
     const ssize_t written = ::pwrite(number_, bytes.data(), bytes.size(), static_cast<off_t>(place));
     if (written < 0) return last_error();
     if (static_cast<std::size_t>(written) < bytes.size()) return std::make_error_code(std::errc::no_space_on_device);
+    return {};
+}
+
+std::error_code OpenFile::read_at(std::size_t place, std::span<char> bytes) const {
+    while (!bytes.empty()) {
+        const ssize_t count = ::pread(number_, bytes.data(), bytes.size(), static_cast<off_t>(place));
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) return last_error();
+        if (count == 0) return std::make_error_code(std::errc::io_error);  // it ends before
+        place += static_cast<std::size_t>(count);
+        bytes = bytes.subspan(static_cast<std::size_t>(count));
+    }
     return {};
 }
 

@@ -25,7 +25,8 @@ public:
         create,          ///< made, or emptied
         create_private,  ///< the same; only its owner may read a file that is made
         append,          ///< there already; written at its end
-        overwrite        ///< there already; its bytes are replaced in place
+        overwrite,       ///< there already; its bytes are replaced in place
+        scratch          ///< made; only its owner may read it; read, too
     };
 
     OpenFile() = default;
@@ -44,6 +45,8 @@ public:
     /// Replaces bytes from `place` on in one call: within a page of 4096 bytes all of them or none, also when the
     /// program is killed.
     [[nodiscard]] std::error_code write_at(std::size_t place, std::string_view bytes);
+    /// Fills `bytes` with what lies from `place` on. May be called by several threads.
+    [[nodiscard]] std::error_code read_at(std::size_t place, std::span<char> bytes) const;
     [[nodiscard]] std::error_code truncate(std::size_t size);
     /// Some file systems report a full disk only here.
     std::error_code close();

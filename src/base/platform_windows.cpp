@@ -52,8 +52,17 @@ bool is_link(const fs::path& path) {
 
 int flags_of(OpenFile::Mode mode) {
     constexpr int always = _O_WRONLY | _O_BINARY | _O_NOINHERIT;
+    if (mode == OpenFile::Mode::scratch) return _O_RDWR | _O_BINARY | _O_NOINHERIT | _O_CREAT | _O_EXCL;
     if (mode == OpenFile::Mode::create || mode == OpenFile::Mode::create_private) return always | _O_CREAT | _O_TRUNC;
     return mode == OpenFile::Mode::append ? always | _O_APPEND : always;
+}
+
+/// Where a file is read or written.
+OVERLAPPED from(std::size_t place) {
+    OVERLAPPED where{};
+    where.Offset = static_cast<DWORD>(place);
+    where.OffsetHigh = static_cast<DWORD>(static_cast<std::uint64_t>(place) >> 32);
+    return where;
 }
 
 /// A descriptor that closes the handle with itself, or -1.
@@ -209,14 +218,25 @@ std::error_code OpenFile::write(std::span<const std::string_view> parts) {
 }
 
 std::error_code OpenFile::write_at(std::size_t place, std::string_view bytes) {
-    OVERLAPPED where{};
-    where.Offset = static_cast<DWORD>(place);
-    where.OffsetHigh = static_cast<DWORD>(static_cast<std::uint64_t>(place) >> 32);
+    OVERLAPPED where = from(place);
     DWORD written = 0;
     if (!::WriteFile(handle_of(number_), bytes.data(), static_cast<DWORD>(bytes.size()), &written, &where)) {
         return last_error();
     }
     return written < bytes.size() ? std::make_error_code(std::errc::no_space_on_device) : std::error_code();
+}
+
+std::error_code OpenFile::read_at(std::size_t place, std::span<char> bytes) const {
+    while (!bytes.empty()) {
+        OVERLAPPED where = from(place);
+        const auto most = static_cast<DWORD>(std::min<std::size_t>(bytes.size(), 1 << 30));
+        DWORD count = 0;
+        if (!::ReadFile(handle_of(number_), bytes.data(), most, &count, &where)) return last_error();
+        if (count == 0) return std::make_error_code(std::errc::io_error);  // it ends before
+        place += count;
+        bytes = bytes.subspan(count);
+    }
+    return {};
 }
 
 std::error_code OpenFile::truncate(std::size_t size) {

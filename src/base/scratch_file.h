@@ -1,9 +1,10 @@
 // Bytes that wait on disk until they are read again, for as long as the program runs.
 #pragma once
 
+#include "base/platform.h"
+
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -11,7 +12,8 @@
 
 namespace espalier {
 
-/// A file that is gone when this is, and where the system allows it also after the program was killed. Thread safe.
+/// A file that is gone when this is, and where the system allows it also after the program was killed. Several threads
+/// may append, and then several may read.
 class ScratchFile {
 public:
     /// Makes the file in a folder that exists. Throws RunError, as the others do where the disk is full or fails.
@@ -29,11 +31,14 @@ private:
     void open();
     void close();
     void remove();
+    void write_waiting();
+    void write(std::uint64_t at, std::string_view bytes);
     [[noreturn]] void fail(const char* what, const std::error_code& error) const;
 
     std::filesystem::path folder_, own_folder_;
-    std::fstream file_;
+    platform::OpenFile file_;
     std::uint64_t size_ = 0;
+    std::string waiting_;  ///< the last bytes, which are not yet in the file
     std::mutex mutex_;
 };
 
