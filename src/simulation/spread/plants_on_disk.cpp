@@ -157,7 +157,9 @@ void PlantsOnDisk::write(GrowingPlant& plant, std::size_t file, bool drawn) {
     const Interpretation& from = *plant.interpretation;
     ModuleString& string = *plant.string;
     const std::vector<QueryPlace> places = places_of(from.queries, string);
-    std::ostringstream out;
+    std::string room;
+    room.reserve(places_[plant.number].size / 4 * 5);  // it grows
+    std::ostringstream out(std::move(room));
     put_column(out, places);
     auto parameters = parameters_alone(string, places);
     // Processes answer queries only, so the turtle may be first.

@@ -224,7 +224,7 @@ TEST_CASE("queries that come in parts, of plants that are not in memory, are ans
         Environment whole = environment_of(scene), parts = environment_of(scene);
         AskingPlants all, waiting;
         const std::vector<Asked> questions = crown(9000);
-        for (int plant = 0; plant < 20; ++plant) {  // 180,000: three parts
+        for (int plant = 0; plant < 20; ++plant) {  // 180,000: more than twenty parts
             std::vector<Asked> own = questions;
             for (Asked& asked : own) asked.position += glm::dvec3(0.7 * plant, 0.1 * plant, 0);
             if (plant == 7) own.clear();
