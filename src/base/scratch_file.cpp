@@ -45,7 +45,8 @@ std::uint64_t ScratchFile::append(std::string_view bytes) {
         const std::lock_guard lock(mutex_);
         waiting_.append(bytes);
         begin = std::exchange(size_, size_ + bytes.size());
-        if (waiting_.size() < enough) return begin;
+        has_waiting_ = waiting_.size() < enough;
+        if (has_waiting_) return begin;
         full.reserve(waiting_.capacity());
         full.swap(waiting_);
     }
@@ -54,7 +55,7 @@ std::uint64_t ScratchFile::append(std::string_view bytes) {
 }
 
 std::string ScratchFile::read(std::uint64_t at, std::size_t size) {
-    write_waiting();
+    if (has_waiting_) write_waiting();
     std::string bytes(size, '\0');
     if (const std::error_code error = file_.read_at(at, bytes)) fail("read", error);
     return bytes;
@@ -63,6 +64,7 @@ std::string ScratchFile::read(std::uint64_t at, std::size_t size) {
 void ScratchFile::clear() {
     close();
     waiting_.clear();
+    has_waiting_ = false;
     size_ = 0;
     open();
 }
@@ -72,6 +74,7 @@ void ScratchFile::write_waiting() {
     if (waiting_.empty()) return;
     write(size_ - waiting_.size(), waiting_);
     waiting_.clear();
+    has_waiting_ = false;
 }
 
 void ScratchFile::write(std::uint64_t at, std::string_view bytes) {

@@ -3,6 +3,7 @@
 
 #include "base/platform.h"
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
@@ -39,6 +40,7 @@ private:
     platform::OpenFile file_;
     std::uint64_t size_ = 0;
     std::string waiting_;  ///< the last bytes, which are not yet in the file
+    std::atomic<bool> has_waiting_ = false;
     std::mutex mutex_;
 };
 

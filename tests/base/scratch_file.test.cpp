@@ -61,7 +61,8 @@ TEST_CASE("a scratch file tells that the disk is full, and leaves nothing in its
     {
         ScratchFile file(folder.path());
         const SmallDisk disk(100'000);
-        CHECK_THROWS_WITH(file.append(std::string(500'000, 'x')), Contains("cannot write a file for what waits on disk"));
+        CHECK_THROWS_WITH(file.append(std::string(500'000, 'x')),
+                          Contains("cannot write a file for what waits on disk"));
         file.append("kept back");
         CHECK_THROWS_AS(file.read(0, 500'000), RunError);
     }

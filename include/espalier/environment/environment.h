@@ -120,6 +120,8 @@ private:
     void for_parts(const WorldView& world, const Use& use);
     template <class Work>
     void have_work(std::size_t process, int step, const Work& work);
+    template <class Use>
+    void for_plants(const WorldView& world, const Use& use) const;
     void gather(const WorldView& world);
     void forget();
     bool borrow(const WorldView& world);

@@ -36,8 +36,8 @@ struct PlantView {
 /// The queries of plants that are not in memory, in place of those of their interpretations.
 struct WaitingQueries {
     std::size_t count = 0;  ///< of all plants
-    /// Of one plant; valid until the next plant's are asked for, which is done in plant order.
-    std::function<std::span<const Query>(std::uint32_t plant)> of;
+    /// Of one plant; they may lie in `room`. Is called by several threads.
+    std::function<std::span<const Query>(std::uint32_t plant, QueryColumn& room)> of;
 };
 
 class Environment;

@@ -110,6 +110,26 @@ void Environment::exchange_in_parts(TakesParts& taker, const WorldView& world, s
     });
 }
 
+// Calls use(plant, queries) in plant order. All threads fetch what waits, of some plants at a time.
+template <class Use>
+void Environment::for_plants(const WorldView& world, const Use& use) const {
+    if (!world.waiting) {
+        for (const PlantView& plant : world.plants) use(plant, plant.interpretation->queries);
+        return;
+    }
+    constexpr std::size_t most_plants = 64, most_queries = 1 << 13;
+    const std::size_t of_plant = world.waiting->count / std::max<std::size_t>(1, world.plants.size()) + 1;
+    const std::size_t some = std::clamp<std::size_t>(most_queries / of_plant, 1, most_plants);
+    std::vector<QueryColumn> rooms(some);
+    std::vector<std::span<const Query>> queries(some);
+    for (std::size_t first = 0; first < world.plants.size(); first += some) {
+        const std::span plants = world.plants.subspan(first, std::min(some, world.plants.size() - first));
+        for_in_parallel(std::size_t{0}, plants.size(),
+                        [&](std::size_t i) { queries[i] = world.waiting->of(plants[i].plant, rooms[i]); });
+        for (std::size_t i = 0; i < plants.size(); ++i) use(plants[i], queries[i]);
+    }
+}
+
 // Calls use(batch) for the queries of some plants after the other, in plant order, then string order.
 template <class Use>
 void Environment::for_parts(const WorldView& world, const Use& use) {
@@ -122,10 +142,10 @@ void Environment::for_parts(const WorldView& world, const Use& use) {
         use(batch);
         batch.copies.clear();
     };
-    for (const PlantView& plant : world.plants) {
-        gather(plant, world.waiting->of(plant.plant), world);
+    for_plants(world, [&](const PlantView& plant, std::span<const Query> queries) {
+        gather(plant, queries, world);
         if (batch.copies.size() >= part) use_some();
-    }
+    });
     if (!batch.copies.empty()) use_some();
 }
 
@@ -145,9 +165,8 @@ void Environment::gather(const WorldView& world) {
     forget();
     if (world.waiting || !borrow(world)) {
         make_room(world);
-        for (const PlantView& plant : world.plants) {
-            gather(plant, world.waiting ? world.waiting->of(plant.plant) : plant.interpretation->queries, world);
-        }
+        for_plants(world,
+                   [&](const PlantView& plant, std::span<const Query> queries) { gather(plant, queries, world); });
         for (Batch& batch : batches_) batch.queries = copies(world) ? Queries(batch.copies) : Queries(batch.places);
     }
     for (std::size_t process = 0; process < processes_.size(); ++process) {

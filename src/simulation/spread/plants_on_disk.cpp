@@ -203,7 +203,7 @@ const environment::WaitingQueries* PlantsOnDisk::queries() {
     for (const GrowingPlant& plant : all()) {
         of_all_.count += plant.is_local ? places_[plant.number].queries : plant.interpretation->queries.size();
     }
-    of_all_.of = [this](std::uint32_t plant) { return queries_of(all()[plant], of_one_); };
+    of_all_.of = [this](std::uint32_t plant, QueryColumn& room) { return queries_of(all()[plant], room); };
     return &of_all_;
 }
 

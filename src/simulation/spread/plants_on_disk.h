@@ -73,7 +73,6 @@ private:
     std::vector<Place> places_;  ///< of each plant
     Part shown_;
     std::vector<Waiting> waiting_;  ///< of plants that are shown
-    QueryColumn of_one_;
     environment::WaitingQueries of_all_;
     std::array<std::optional<ScratchFile>, 2> files_;
     std::size_t now_ = 0;

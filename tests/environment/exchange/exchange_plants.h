@@ -58,14 +58,13 @@ public:
 
     void exchange(Environment& environment, int step = 0) { exchange(environment, step, nullptr); }
 
-    /// As if the plants were not in memory: their queries come one plant after the other, and do not stay.
+    /// As if the plants were not in memory: their queries come some plants after the other, and do not stay.
     void exchange_waiting(Environment& environment, int step = 0) {
         WaitingQueries waiting;
-        QueryColumn of_one;
         for (const Interpretation& one : interpretations_) waiting.count += one.queries.size();
-        waiting.of = [&](std::uint32_t plant) -> std::span<const Query> {
-            of_one = interpretations_[plant].queries;
-            return of_one;
+        waiting.of = [&](std::uint32_t plant, QueryColumn& room) -> std::span<const Query> {
+            room = interpretations_[plant].queries;
+            return room;
         };
         exchange(environment, step, &waiting);
     }
