@@ -36,21 +36,23 @@ void ScratchFile::remove() {
     std::filesystem::remove_all(own_folder_, is_open_or_gone);
 }
 
-// A quarter of a megabyte at a time: the system takes larger pages for it, and threads wait less for each other.
+// A quarter of a megabyte or more at once: the system takes larger pages for it, and threads wait less for each other.
 std::uint64_t ScratchFile::append(std::string_view bytes) {
     constexpr std::size_t enough = 1 << 18;
+    const bool is_enough = bytes.size() >= enough;
     std::string full;
     std::uint64_t begin = 0;
     {
         const std::lock_guard lock(mutex_);
-        waiting_.append(bytes);
         begin = std::exchange(size_, size_ + bytes.size());
-        has_waiting_ = waiting_.size() < enough;
+        if (!is_enough) waiting_.append(bytes);
+        has_waiting_ = !is_enough && waiting_.size() < enough;
         if (has_waiting_) return begin;
-        full.reserve(waiting_.capacity());
+        full.reserve(2 * enough);
         full.swap(waiting_);
     }
-    write(begin + bytes.size() - full.size(), full);
+    write((is_enough ? begin : begin + bytes.size()) - full.size(), full);
+    if (is_enough) write(begin, bytes);
     return begin;
 }
 
