@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 #include <utility>
 
@@ -18,7 +19,7 @@ DiskBudget::DiskBudget(const fs::path& folder, std::uintmax_t bytes, bool resume
 }
 
 bool DiskBudget::is_spent() {
-    if (std::chrono::steady_clock::now() >= next_) look();
+    if (std::has_single_bit(++asked_) || std::chrono::steady_clock::now() >= next_) look();
     return written_ > bytes_;
 }
 
