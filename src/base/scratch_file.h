@@ -39,8 +39,8 @@ private:
     std::filesystem::path folder_, own_folder_;
     platform::OpenFile file_;
     std::uint64_t size_ = 0;
-    std::string waiting_;  ///< the last bytes, which are not yet in the file
-    std::atomic<bool> has_waiting_ = false;
+    std::string waiting_;                    ///< the last bytes, which are not yet in the file
+    std::atomic<bool> has_waiting_ = false;  ///< so that those who read need no lock
     std::mutex mutex_;
 };
 

@@ -7,7 +7,7 @@
 
 using espalier::simulation::DiskBudget;
 
-TEST_CASE("a short run is told in the same step that the disk is spent, however fast it is", "[simulation]") {
+TEST_CASE("the disk is looked at the 1st, 2nd, 4th ... time, however soon that is", "[simulation]") {
     const TemporaryFolder folder;
     folder.write("there before", std::string(5000, 'x'));
     DiskBudget budget(folder.path(), 100, /*resumed=*/false);

@@ -14,8 +14,8 @@ public:
     /// What is there already does not count, unless it is the beginning of a resumed run.
     DiskBudget(const std::filesystem::path& folder, std::uintmax_t bytes, bool resumed);
 
-    /// Looks at the folder when asked for the 1st, 2nd, 4th, 8th ... time, so that short runs end in the same step
-    /// wherever they run; else only if that takes no more than a fiftieth of the time since it last did.
+    /// Looks at the folder when asked for the 1st, 2nd, 4th, 8th ... time, so that no run is too short to be looked at;
+    /// else only if that takes no more than a fiftieth of the time since it last did.
     bool is_spent();
     std::uintmax_t written() const { return written_; }  ///< when it last looked
 
