@@ -1,6 +1,8 @@
 // Measures the table of goals, prints it and writes it as JSON. Exit code 1 if a goal is missed, 2 for mistakes.
 #include "report.h"
 
+#include "base/platform.h"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -164,6 +166,7 @@ int main(int argc, char** argv) {
         ->capture_default_str()
         ->check(CLI::Range(0.0, 3600.0));
     app.add_option("--json", arguments.json, "Where the result is written")->capture_default_str();
+    espalier::platform::give_back_large_blocks();  // as the program does
     try {
         app.parse(argc, argv);
         arguments.passed_on = app.remaining();

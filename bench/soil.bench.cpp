@@ -65,7 +65,26 @@ void wetting_with_rain(benchmark::State& state) {
 BENCHMARK(filling_with_rain)->UseRealTime();
 BENCHMARK(wetting_with_rain)->UseRealTime();
 
-/// The same rain on a column of the tests' reference, with as many cells as the small block is high.
+/// Six days of rain that stands as a pond on loam of 200 layers over a closed floor.
+void pond(benchmark::State& state, int side) {
+    for (auto _ : state) {
+        test::SoilBlock block(fmt::format(
+            "domain = {{ lower = [0, -4.0, 0], upper = [{0}, 0, {0}] }}\nvoxel = 0.02\nsoil = \"loam\"\n"
+            "initial = {{ head = -100 }}\nboundaries = {{ top = {{ rain = 20, ponding = 400 }}, bottom = \"no-flux\" }}",
+            0.02 * side));
+        block.advance(6);
+    }
+}
+void pond_on_column(benchmark::State& state) {
+    pond(state, 1);
+}
+void pond_on_few_columns(benchmark::State& state) {
+    pond(state, 2);
+}
+BENCHMARK(pond_on_column)->UseRealTime();
+BENCHMARK(pond_on_few_columns)->UseRealTime();
+
+/// The rain of the blocks on a column of the tests' reference, with as many cells as the small block is high.
 void rain_on_plain_column(benchmark::State& state) {
     for (auto _ : state) {
         test::ReferenceColumn column({0.08, 0.43, 0.04, 1.6, 50}, 20, 20, -400);
@@ -192,6 +211,13 @@ const Row full{"a substep of 32^3 voxels of loam that fills to a pond, against o
                Measure::time_per_item,
                Goal::at_most,
                3};
+
+const Row narrow{"a pond on 2 x 200 x 2 voxels of soil, against one column",
+                 "pond_on_few_columns/real_time",
+                 "pond_on_column/real_time",
+                 Measure::time,
+                 Goal::at_most,
+                 5};
 
 const Row tree{"water in a tree of 100,000 pieces of root, per piece, ns",
                "tree_of_roots/real_time",

@@ -171,13 +171,16 @@ void PlantsOnDisk::write(GrowingPlant& plant, std::size_t file, bool drawn) {
     place.asked = static_cast<std::uint64_t>(out.tellp());
     place.queries = from.queries.size();
     place.is_drawn = drawn;
-    auto waiting = std::make_shared<Interpretation>();
+    static const auto nothing = std::make_shared<const Interpretation>();
+    std::shared_ptr<const Interpretation> waiting = nothing;
     if (drawn) {
         const PlantGeometry& geometry = plant.drawn().geometry;
         put_column(out, from.answers);
         put_column(out, from.directions);
         put_geometry(out, geometry);
-        waiting->geometry.shapes = geometry.shapes;
+        auto shapes_alone = std::make_shared<Interpretation>();
+        shapes_alone->geometry.shapes = geometry.shapes;
+        waiting = std::move(shapes_alone);
         place.points = points_foreseen(geometry);
     }
     const std::string bytes = std::move(out).str();

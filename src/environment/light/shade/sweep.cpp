@@ -5,9 +5,10 @@
 
 #include <tbb/task_arena.h>
 
-#include <array>
+#include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <limits>
 #include <tuple>
 
 #ifdef __SSE2__
@@ -19,7 +20,7 @@ namespace {
 
 constexpr int edge = ShadeBricks::edge;
 constexpr int stretch_bricks = 8;           // long enough that beginning one costs little, short enough to share out
-constexpr std::size_t most_kept = 1 << 20;  // pyramids, 20 MiB of them, for which memory is kept between two runs
+constexpr std::size_t most_kept = 1 << 20;  // pyramids, 16 MiB of them, for which memory is kept between two runs
 constexpr int slice_bricks = 64;            // along z; eight running rows fit into the first cache
 
 /// A sweep as the loops over single voxels see it.
@@ -56,7 +57,7 @@ void begin(const Pass& pass, int x) {
             const int width = pass.widths.wide[static_cast<std::size_t>(q)];
             for (std::uint32_t i = front.first[x - width - pass.rows.base]; i < front.first[x + width - pass.rows.base];
                  ++i) {
-                add_layer(pass, front, front.casts[i].cast, q, 1);
+                add_layer(pass, front, front.casts[i], q, 1);
             }
         }
     }
@@ -68,12 +69,12 @@ void advance(const Pass& pass, int x, bool ends) {
     for (const ShadeFront& front : pass.fronts) {
         const std::uint32_t* first = front.first + (x - pass.rows.base);
         for (std::uint32_t i = first[front.nearest]; i < first[front.farthest + 1]; ++i) {
-            const ShadeCast& cast = front.casts[i].cast;
+            const ShadeCast& cast = front.casts[i];
             add_layers(pass, front, cast, cast.apex.x - x, 1);
         }
         if (!ends) continue;
         for (std::uint32_t i = first[-1 - front.farthest]; i < first[-front.nearest]; ++i) {
-            const ShadeCast& cast = front.casts[i].cast;
+            const ShadeCast& cast = front.casts[i];
             add_layers(pass, front, cast, x - 1 - cast.apex.x, -1);
         }
     }
@@ -179,47 +180,19 @@ void clear(std::span<const ShadeTarget> targets, int x, double full_light) {
     }
 }
 
-/// Stable counting sort by eleven bits of a number.
-template <class Item, class Number>
-void sort_by_digit(const Column<Item>& from, Column<Item>& to, const Number& number, int shift) {
-    std::array<std::size_t, 2049> ends{};
-    const auto digit = [&](const Item& item) { return number(item) >> shift & 2047; };
-    for (const Item& item : from) ++ends[digit(item) + 1];
-    for (std::size_t i = 1; i < ends.size(); ++i) ends[i] += ends[i - 1];
-    to.resize(from.size());
-    for (const Item& item : from) to[ends[digit(item)]++] = item;
-}
-
-/// Sorts whole numbers stably, least first.
-template <class Item, class Number>
-void sort_by(Column<Item>& items, Column<Item>& spare, const Number& number) {
-    int least = number(items[0]), most = least;
-    for (const Item& item : items) {
-        least = std::min(least, number(item));
-        most = std::max(most, number(item));
-    }
-    const auto from_least = [&](const Item& item) { return static_cast<std::uint32_t>(number(item) - least); };
-    for (int shift = 0; shift < 32 && static_cast<std::uint32_t>(most - least) >> shift != 0; shift += 11) {
-        sort_by_digit(items, spare, from_least, shift);
-        std::swap(items, spare);
-    }
-}
-
 }  // namespace
 
 // Each stretch of bricks is summed by one thread; sums of whole numbers do not depend on their order.
 void ShadeSweep::run(const ShadeCasts& casts, const VoxelBox& box, ShadeBricks& bricks, const Leaves& leaves) {
     bricks.cover(ShadeBricks::brick_of(box.lower), ShadeBricks::brick_of(box.upper));
     measure(casts);
-    cut(casts, bricks.first().z);
-    sort();
+    sort(casts, bricks.first().z);
     count(casts, bricks);
     bricks.set_reach(counts_);
     list_stretches(bricks);
     leaves_ = leaves ? leaves() : std::span<const ShadeLeaf>();
     for_in_parallel(std::size_t{0}, stretches_.size(), [&](std::size_t i) { sweep(casts, stretches_[i], bricks); });
-    if (sorted_.capacity() > most_kept) sorted_ = Column<SlicedCast>();  // frees its memory; = {} would not
-    if (spare_.capacity() > most_kept) spare_ = Column<SlicedCast>();
+    if (sorted_.capacity() > most_kept) sorted_ = Column<ShadeCast>();  // frees its memory; = {} would not
 }
 
 std::size_t ShadeSweep::bytes(const ShadeCasts& casts) {
@@ -231,7 +204,7 @@ std::size_t ShadeSweep::bytes(const ShadeCasts& casts) {
     const std::size_t fronts = std::min(edge + depth, casts.casts().size()) *
                                (sizeof(ShadeFront) + (edge * stretch_bricks + 2 * wide + 4) * sizeof(std::uint32_t));
     const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-    return 2 * slices * casts.casts().size() * sizeof(SlicedCast) + threads * (rows + fronts);
+    return slices * casts.casts().size() * sizeof(ShadeCast) + threads * (rows + fronts);
 }
 
 void ShadeSweep::measure(const ShadeCasts& casts) {
@@ -244,28 +217,46 @@ void ShadeSweep::measure(const ShadeCasts& casts) {
     widths_.first_of_width.push_back(casts.rule().depth + 1);
 }
 
-void ShadeSweep::cut(const ShadeCasts& casts, int first_z) {
-    sorted_.clear();
+// Counted by slice and height, then sorted along x. Those at one x may stand in any order.
+void ShadeSweep::sort(const ShadeCasts& casts, int first_z) {
     const int deep = casts.thickness(casts.rule().depth);
+    const auto slice_of = [&](int z) { return ((z >> 3) - first_z) / slice_bricks; };
+    int least = std::numeric_limits<int>::max(), most = std::numeric_limits<int>::min(), slices = 0;
     for (const ShadeCast& cast : casts.casts()) {
-        const int back = std::max(cast.apex.z - deep, casts.clip().lower.z) >> 3;
-        const int front = std::min(cast.apex.z + deep, casts.clip().upper.z) >> 3;
-        const int last = (front - first_z) / slice_bricks;
-        for (int slice = (back - first_z) / slice_bricks; slice <= last; ++slice) sorted_.push_back({cast, slice});
+        least = std::min(least, cast.apex.y);
+        most = std::max(most, cast.apex.y);
+        slices = std::max(slices, slice_of(std::min(cast.apex.z + deep, casts.clip().upper.z)) + 1);
     }
+    const int heights = most - least + 1;
+    const auto for_places = [&](const auto& visit) {
+        for (const ShadeCast& cast : casts.casts()) {
+            const int last = slice_of(std::min(cast.apex.z + deep, casts.clip().upper.z));
+            for (int slice = slice_of(std::max(cast.apex.z - deep, casts.clip().lower.z)); slice <= last; ++slice) {
+                visit(static_cast<std::size_t>(slice) * heights + static_cast<std::size_t>(cast.apex.y - least), cast);
+            }
+        }
+    };
+    std::vector<std::size_t> ends(static_cast<std::size_t>(slices) * heights + 1);
+    for_places([&](std::size_t layer, const ShadeCast&) { ++ends[layer + 1]; });
+    for (std::size_t i = 1; i < ends.size(); ++i) ends[i] += ends[i - 1];
+    sorted_.resize(ends.back());
+    for_places([&](std::size_t layer, const ShadeCast& cast) { sorted_[ends[layer]++] = cast; });
+    list_layers(least, heights, ends);
+    for_in_parallel(std::size_t{0}, layers_.size(), [&](std::size_t i) {
+        const auto at = [&](std::size_t place) { return sorted_.begin() + static_cast<std::ptrdiff_t>(place); };
+        std::sort(at(layers_[i].begin), at(layers_[i].end),
+                  [](const ShadeCast& a, const ShadeCast& b) { return a.apex.x < b.apex.x; });
+    });
 }
 
-void ShadeSweep::sort() {
-    sort_by(sorted_, spare_, [](const SlicedCast& sliced) { return sliced.cast.apex.x; });
-    sort_by(sorted_, spare_, [](const SlicedCast& sliced) { return sliced.cast.apex.y; });
-    sort_by(sorted_, spare_, [](const SlicedCast& sliced) { return sliced.slice; });
+void ShadeSweep::list_layers(int least_y, int heights, std::span<const std::size_t> ends) {
     layers_.clear();
-    for (std::size_t i = 0; i < sorted_.size(); ++i) {
-        const auto& [cast, slice] = sorted_[i];
-        if (layers_.empty() || layers_.back().slice != slice || layers_.back().y != cast.apex.y) {
-            layers_.push_back({slice, cast.apex.y, i, i});
-        }
-        layers_.back().end = i + 1;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; begin < sorted_.size(); ++i) {
+        if (ends[i] == begin) continue;
+        const int layer = static_cast<int>(i);
+        layers_.push_back({layer / heights, least_y + layer % heights, begin, ends[i]});
+        begin = ends[i];
     }
 }
 
@@ -296,7 +287,7 @@ void ShadeSweep::count_layer(const ShadeCasts& casts, const ShadeBricks& bricks,
         const int back = first.z + slice * slice_bricks, front = back + slice_bricks - 1;
         for (const Layer& layer : layers_over(slice, lower, upper, casts.rule().depth)) {
             for (std::size_t i = layer.begin; i < layer.end; ++i) {
-                const BrickSquare square = reached_bricks(casts, sorted_[i].cast.apex, y);
+                const BrickSquare square = reached_bricks(casts, sorted_[i].apex, y);
                 if (square.front < back || square.back > front) continue;
                 const auto z = static_cast<std::size_t>(std::max(square.back, back) - first.z);
                 const auto end_z = static_cast<std::size_t>(std::min(square.front, front) + 1 - first.z);
@@ -354,11 +345,11 @@ std::vector<ShadeFront> ShadeSweep::fronts_of(const ShadeCasts& casts, const Str
     std::vector<ShadeFront> fronts;
     for (const Layer& layer : layers) {
         std::uint32_t* entry = first.data() + fronts.size() * places;
-        const SlicedCast *begin = sorted_.data() + layer.begin, *last = sorted_.data() + layer.end;
-        const auto below = [](const SlicedCast& sliced, int x) { return sliced.cast.apex.x < x; };
-        const SlicedCast* next = std::lower_bound(begin, last, base, below);
+        const ShadeCast *begin = sorted_.data() + layer.begin, *last = sorted_.data() + layer.end;
+        const auto below = [](const ShadeCast& cast, int x) { return cast.apex.x < x; };
+        const ShadeCast* next = std::lower_bound(begin, last, base, below);
         for (int x = base; x <= end; ++x) {
-            while (next != last && next->cast.apex.x < x) ++next;
+            while (next != last && next->apex.x < x) ++next;
             entry[x - base] = static_cast<std::uint32_t>(next - begin);
         }
         const int upper_layer = std::max(0, layer.y - upper),

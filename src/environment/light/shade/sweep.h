@@ -9,15 +9,10 @@
 
 namespace espalier::environment {
 
-/// A pyramid, once for every slice it reaches into.
-struct SlicedCast {
-    ShadeCast cast;
-    int slice;
-};
 /// The pyramids of one layer of apices, on their way along x. At any x those that a layer q of theirs begins or ends at
 /// stand side by side: their apices are half_width(q) away.
 struct ShadeFront {
-    const SlicedCast* casts;
+    const ShadeCast* casts;
     const std::uint32_t* first;    ///< by x - base: the first pyramid with its apex there or beyond
     int y;                         ///< height of the apices
     int upper_layer, lower_layer;  ///< the layers q that lie at the heights of the rows
@@ -71,8 +66,8 @@ private:
     };
 
     void measure(const ShadeCasts& casts);
-    void cut(const ShadeCasts& casts, int first_z);
-    void sort();
+    void sort(const ShadeCasts& casts, int first_z);
+    void list_layers(int least_y, int heights, std::span<const std::size_t> ends);
     void count(const ShadeCasts& casts, const ShadeBricks& bricks);
     void count_layer(const ShadeCasts& casts, const ShadeBricks& bricks, int y);
     void list_stretches(const ShadeBricks& bricks);
@@ -84,7 +79,7 @@ private:
     std::span<const Layer> layers_over(int slice, int lower, int upper, int depth) const;
 
     ShadeWidths widths_;
-    Column<SlicedCast> sorted_, spare_;
+    Column<ShadeCast> sorted_;  ///< once for every slice they reach into
     std::vector<Layer> layers_;
     Column<std::uint32_t> counts_;  ///< pyramids that reach each place of the directory
     std::vector<Stretch> stretches_;

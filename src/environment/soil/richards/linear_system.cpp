@@ -12,6 +12,8 @@ constexpr int few_iterations = 2;  ///< with columns alone: a cycle of multigrid
 
 SoilLinearSystem::SoilLinearSystem(const SoilRows& rows) : matrix_(rows), sums_(rows.grid().rows()) {
     for (WaterBrick* brick : {&r_, &r0_, &p_, &v_, &s_, &t_, &y_}) brick->assign(rows.grid().cells(), 0.0);
+    const int columns = rows.grid().size().x * rows.grid().size().z;
+    if (columns > 1 && columns <= SoilBand::most_columns) band_.emplace(rows);
 }
 
 double SoilLinearSystem::dot(const WaterBrick& a, const WaterBrick& b) {
@@ -27,18 +29,26 @@ double SoilLinearSystem::dot(const WaterBrick& a, const WaterBrick& b) {
 }
 
 void SoilLinearSystem::precondition(By by, const WaterBrick& r, WaterBrick& z) {
-    if (by == By::columns) {
-        matrix_.solve_columns(r, z);
-    } else {
-        multigrid_->cycle(matrix_, r, z);
+    switch (by) {
+        case By::columns:
+            return matrix_.solve_columns(r, z);
+        case By::multigrid:
+            return multigrid_->cycle(matrix_, r, z);
+        case By::band:
+            return band_->solve(r, z);
     }
 }
 
 int SoilLinearSystem::solve(const std::array<FaceFluxes, 3>& fluxes, const WaterBrick& b, double tolerance,
                             WaterBrick& x) {
     for (std::size_t axis = 0; axis < 3; ++axis) matrix_.faces[axis] = &fluxes[axis];
-    matrix_.factorise();
     const double goal = tolerance * tolerance * dot(b, b);
+    if (band_) {
+        band_->factorise(matrix_.diagonal, matrix_.faces);
+        band_->solve(b, x);
+        return improve(By::band, goal, b, x);
+    }
+    matrix_.factorise();
     // The columns' own solution to begin with: it is the solution where nothing flows across.
     matrix_.solve_columns(b, x);
     const int quick = improve(By::columns, goal, b, x);
