@@ -121,7 +121,7 @@ std::size_t compare(ModelBuilder& model, bool lineage, std::size_t threads) {
     derivation.start(string);
     std::size_t longest = 0;
     for (std::uint32_t step = 1; step <= 40; ++step) {
-        plain = plain_step(model.model(), plain, step);
+        plain = plain_step(model.model(), plain, step, longest_string);
         if (plain.size() > longest_string) break;
         if (step % 3 == 0) string = ModuleString(string);  // a copy has no room behind it
         derivation.step(string, next);

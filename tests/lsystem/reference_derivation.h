@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -129,9 +130,11 @@ inline void plain_successor(const Production& production, const Alphabet& alphab
     }
 }
 
-inline PlainString plain_step(const Model& model, const PlainString& string, std::uint32_t step) {
+/// Ends early once it has more than `most` modules.
+inline PlainString plain_step(const Model& model, const PlainString& string, std::uint32_t step,
+                              std::size_t most = std::numeric_limits<std::size_t>::max()) {
     PlainString to;
-    for (std::size_t i = 0; i < string.size();) {
+    for (std::size_t i = 0; i < string.size() && to.size() <= most;) {
         const Production* const production = plain_choice(model.main(), string, i, step);
         if (!production) {
             to.push_back(string[i++]);
