@@ -313,8 +313,9 @@ std::size_t peak_memory() {
 
 void give_back_large_blocks() {
 #ifdef __GLIBC__
-    constexpr int large = 1 << 20;
+    constexpr int large = 1 << 20, kept = 16 << 20;
     ::mallopt(M_MMAP_THRESHOLD, large);
+    ::mallopt(M_TRIM_THRESHOLD, kept);  // the first alone would hold it at 128 KiB
 #endif
 }
 
