@@ -4,8 +4,7 @@
 
 namespace espalier::environment {
 
-SoilBand::SoilBand(const SoilRows& rows)
-    : columns_(std::size_t(rows.grid().size().x) * rows.grid().size().z) {
+SoilBand::SoilBand(const SoilRows& rows) : columns_(std::size_t(rows.grid().size().x) * rows.grid().size().z) {
     const WaterGrid& grid = rows.grid();
     const glm::ivec3 size = grid.size();
     const auto place = [&](int x, int y, int z) { return (std::size_t(y) * size.z + z) * size.x + x; };
@@ -14,7 +13,9 @@ SoilBand::SoilBand(const SoilRows& rows)
             for (int x = 0; x < size.x; ++x) {
                 const std::size_t cell = grid.cell({x, y, z}), own = cells_.size();
                 cells_.push_back(cell);
-                const auto face = [&](std::size_t axis, std::size_t next) { faces_.push_back({axis, cell, own, next}); };
+                const auto face = [&](std::size_t axis, std::size_t next) {
+                    faces_.push_back({axis, cell, own, next});
+                };
                 if (x + 1 < size.x || rows.joined_x()) face(0, place((x + 1) % size.x, y, z));
                 if (y + 1 < size.y) face(1, place(x, y + 1, z));
                 if (z + 1 < size.z || rows.joined_z()) face(2, place(x, y, (z + 1) % size.z));
