@@ -68,10 +68,11 @@ BENCHMARK(wetting_with_rain)->UseRealTime();
 /// Six days of rain that stands as a pond on loam of 200 layers over a closed floor.
 void pond(benchmark::State& state, int side) {
     for (auto _ : state) {
-        test::SoilBlock block(fmt::format(
-            "domain = {{ lower = [0, -4.0, 0], upper = [{0}, 0, {0}] }}\nvoxel = 0.02\nsoil = \"loam\"\n"
-            "initial = {{ head = -100 }}\nboundaries = {{ top = {{ rain = 20, ponding = 400 }}, bottom = \"no-flux\" }}",
-            0.02 * side));
+        test::SoilBlock block(
+            fmt::format("domain = {{ lower = [0, -4.0, 0], upper = [{0}, 0, {0}] }}\nvoxel = 0.02\nsoil = \"loam\"\n"
+                        "initial = {{ head = -100 }}\nboundaries = {{ top = {{ rain = 20, ponding = 400 }}, bottom = "
+                        "\"no-flux\" }}",
+                        0.02 * side));
         block.advance(6);
     }
 }
