@@ -1,7 +1,6 @@
 // Measures the table of goals, prints it and writes it as JSON. Exit code 1 if a goal is missed, 2 for mistakes.
-#include "report.h"
-
 #include "base/platform.h"
+#include "report.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
