@@ -65,25 +65,19 @@ void wetting_with_rain(benchmark::State& state) {
 BENCHMARK(filling_with_rain)->UseRealTime();
 BENCHMARK(wetting_with_rain)->UseRealTime();
 
-/// Six days of rain that stands as a pond on loam of 200 layers over a closed floor.
-void pond(benchmark::State& state, int side) {
+/// Six days of rain that stands as a pond on loam of 200 layers over a closed floor, so many voxels wide and deep.
+void pond(benchmark::State& state) {
+    const double side = 0.02 * static_cast<double>(state.range(0));
     for (auto _ : state) {
         test::SoilBlock block(
             fmt::format("domain = {{ lower = [0, -4.0, 0], upper = [{0}, 0, {0}] }}\nvoxel = 0.02\nsoil = \"loam\"\n"
                         "initial = {{ head = -100 }}\nboundaries = {{ top = {{ rain = 20, ponding = 400 }}, bottom = "
                         "\"no-flux\" }}",
-                        0.02 * side));
+                        side));
         block.advance(6);
     }
 }
-void pond_on_column(benchmark::State& state) {
-    pond(state, 1);
-}
-void pond_on_few_columns(benchmark::State& state) {
-    pond(state, 2);
-}
-BENCHMARK(pond_on_column)->UseRealTime();
-BENCHMARK(pond_on_few_columns)->UseRealTime();
+BENCHMARK(pond)->Arg(1)->Arg(2)->UseRealTime();
 
 /// The rain of the blocks on a column of the tests' reference, with as many cells as the small block is high.
 void rain_on_plain_column(benchmark::State& state) {
@@ -214,8 +208,8 @@ const Row full{"a substep of 32^3 voxels of loam that fills to a pond, against o
                3};
 
 const Row narrow{"a pond on 2 x 200 x 2 voxels of soil, against one column",
-                 "pond_on_few_columns/real_time",
-                 "pond_on_column/real_time",
+                 "pond/2/real_time",
+                 "pond/1/real_time",
                  Measure::time,
                  Goal::at_most,
                  5};

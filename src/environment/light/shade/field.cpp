@@ -152,7 +152,6 @@ ShadeField::Extremes ShadeField::extremes_of(std::span<const ShadeCast> casts) {
 
 // Every pyramid is as large as any other, so that the box of the apices gives theirs.
 void ShadeField::enclose(const ShadeCasts& casts, const Extremes& extremes) {
-    bricks_.reserve_bytes(casts.bytes() + ShadeSweep::bytes(casts));
     VoxelBox box;
     if (!casts.casts().empty()) {
         box = {casts.bounds(extremes.lower).lower, casts.bounds(extremes.upper).upper};
@@ -162,6 +161,7 @@ void ShadeField::enclose(const ShadeCasts& casts, const Extremes& extremes) {
         throw RunError(
             fmt::format("the shadows spread over {:.3g} voxels; take larger voxels, or a fixed domain", box.voxels()));
     }
+    bricks_.reserve_bytes(casts.bytes() + ShadeSweep::bytes(casts, box));
     extremes_ = extremes;
     box_ = box;
 }

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
-#include <limits>
 #include <tuple>
 
 #ifdef __SSE2__
@@ -180,13 +179,18 @@ void clear(std::span<const ShadeTarget> targets, int x, double full_light) {
     }
 }
 
+/// Of the apices of pyramids in a box around them, which may stand above what it was cut to.
+std::size_t heights_of(const ShadeCasts& casts, const VoxelBox& box) {
+    return static_cast<std::size_t>(std::int64_t{box.upper.y} - box.lower.y + casts.rule().depth + 1);
+}
+
 }  // namespace
 
 // Each stretch of bricks is summed by one thread; sums of whole numbers do not depend on their order.
 void ShadeSweep::run(const ShadeCasts& casts, const VoxelBox& box, ShadeBricks& bricks, const Leaves& leaves) {
     bricks.cover(ShadeBricks::brick_of(box.lower), ShadeBricks::brick_of(box.upper));
     measure(casts);
-    sort(casts, bricks.first().z);
+    sort(casts, box, bricks.first().z);
     count(casts, bricks);
     bricks.set_reach(counts_);
     list_stretches(bricks);
@@ -195,7 +199,8 @@ void ShadeSweep::run(const ShadeCasts& casts, const VoxelBox& box, ShadeBricks& 
     if (sorted_.capacity() > most_kept) sorted_ = Column<ShadeCast>();  // frees its memory; = {} would not
 }
 
-std::size_t ShadeSweep::bytes(const ShadeCasts& casts) {
+std::size_t ShadeSweep::bytes(const ShadeCasts& casts, const VoxelBox& box) {
+    if (casts.casts().empty()) return 0;
     const auto depth = static_cast<std::size_t>(casts.rule().depth);
     const auto wide = static_cast<std::size_t>(casts.half_width(casts.rule().depth));
     const auto deep = static_cast<std::size_t>(casts.thickness(casts.rule().depth));
@@ -204,7 +209,9 @@ std::size_t ShadeSweep::bytes(const ShadeCasts& casts) {
     const std::size_t fronts = std::min(edge + depth, casts.casts().size()) *
                                (sizeof(ShadeFront) + (edge * stretch_bricks + 2 * wide + 4) * sizeof(std::uint32_t));
     const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-    return slices * casts.casts().size() * sizeof(ShadeCast) + threads * (rows + fronts);
+    const std::size_t slices_of_box = std::size_t(box.upper.z - std::int64_t{box.lower.z}) / (edge * slice_bricks) + 2;
+    return slices * casts.casts().size() * sizeof(ShadeCast) + threads * (rows + fronts) +
+           slices_of_box * heights_of(casts, box) * sizeof(std::size_t);
 }
 
 void ShadeSweep::measure(const ShadeCasts& casts) {
@@ -218,21 +225,18 @@ void ShadeSweep::measure(const ShadeCasts& casts) {
 }
 
 // Counted by slice and height, then sorted along x. Those at one x may stand in any order.
-void ShadeSweep::sort(const ShadeCasts& casts, int first_z) {
-    const int deep = casts.thickness(casts.rule().depth);
+void ShadeSweep::sort(const ShadeCasts& casts, const VoxelBox& box, int first_z) {
+    const int deep = casts.thickness(casts.rule().depth), least = box.lower.y;
+    const std::size_t heights = heights_of(casts, box);
     const auto slice_of = [&](int z) { return ((z >> 3) - first_z) / slice_bricks; };
-    int least = std::numeric_limits<int>::max(), most = std::numeric_limits<int>::min(), slices = 0;
-    for (const ShadeCast& cast : casts.casts()) {
-        least = std::min(least, cast.apex.y);
-        most = std::max(most, cast.apex.y);
-        slices = std::max(slices, slice_of(std::min(cast.apex.z + deep, casts.clip().upper.z)) + 1);
-    }
-    const int heights = most - least + 1;
+    const int first_slice = slice_of(box.lower.z), slices = slice_of(box.upper.z) - first_slice + 1;
     const auto for_places = [&](const auto& visit) {
         for (const ShadeCast& cast : casts.casts()) {
-            const int last = slice_of(std::min(cast.apex.z + deep, casts.clip().upper.z));
-            for (int slice = slice_of(std::max(cast.apex.z - deep, casts.clip().lower.z)); slice <= last; ++slice) {
-                visit(static_cast<std::size_t>(slice) * heights + static_cast<std::size_t>(cast.apex.y - least), cast);
+            const int last = slice_of(std::min(cast.apex.z + deep, box.upper.z));
+            for (int slice = slice_of(std::max(cast.apex.z - deep, box.lower.z)); slice <= last; ++slice) {
+                visit(static_cast<std::size_t>(slice - first_slice) * heights +
+                          static_cast<std::size_t>(cast.apex.y - least),
+                      cast);
             }
         }
     };
@@ -241,7 +245,7 @@ void ShadeSweep::sort(const ShadeCasts& casts, int first_z) {
     for (std::size_t i = 1; i < ends.size(); ++i) ends[i] += ends[i - 1];
     sorted_.resize(ends.back());
     for_places([&](std::size_t layer, const ShadeCast& cast) { sorted_[ends[layer]++] = cast; });
-    list_layers(least, heights, ends);
+    list_layers(first_slice, least, heights, ends);
     for_in_parallel(std::size_t{0}, layers_.size(), [&](std::size_t i) {
         const auto at = [&](std::size_t place) { return sorted_.begin() + static_cast<std::ptrdiff_t>(place); };
         std::sort(at(layers_[i].begin), at(layers_[i].end),
@@ -249,13 +253,13 @@ void ShadeSweep::sort(const ShadeCasts& casts, int first_z) {
     });
 }
 
-void ShadeSweep::list_layers(int least_y, int heights, std::span<const std::size_t> ends) {
+void ShadeSweep::list_layers(int first_slice, int least_y, std::size_t heights, std::span<const std::size_t> ends) {
     layers_.clear();
     std::size_t begin = 0;
     for (std::size_t i = 0; begin < sorted_.size(); ++i) {
         if (ends[i] == begin) continue;
-        const int layer = static_cast<int>(i);
-        layers_.push_back({layer / heights, least_y + layer % heights, begin, ends[i]});
+        layers_.push_back(
+            {first_slice + static_cast<int>(i / heights), least_y + static_cast<int>(i % heights), begin, ends[i]});
         begin = ends[i];
     }
 }

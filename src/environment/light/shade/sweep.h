@@ -51,8 +51,9 @@ public:
 
     /// Makes `bricks` those that `casts` reach, of which there must be some, and writes every sum. `box`: around them.
     void run(const ShadeCasts& casts, const VoxelBox& box, ShadeBricks& bricks, const Leaves& leaves);
-    /// What a run takes for a while: sorted pyramids, and of each thread running rows and fronts.
-    static std::size_t bytes(const ShadeCasts& casts);
+    /// What a run takes for a while: sorted pyramids, where those of each height end, and of each thread running rows
+    /// and fronts.
+    static std::size_t bytes(const ShadeCasts& casts, const VoxelBox& box);
 
 private:
     /// Pyramids of one slice with apices at one height, sorted along x.
@@ -66,8 +67,8 @@ private:
     };
 
     void measure(const ShadeCasts& casts);
-    void sort(const ShadeCasts& casts, int first_z);
-    void list_layers(int least_y, int heights, std::span<const std::size_t> ends);
+    void sort(const ShadeCasts& casts, const VoxelBox& box, int first_z);
+    void list_layers(int first_slice, int least_y, std::size_t heights, std::span<const std::size_t> ends);
     void count(const ShadeCasts& casts, const ShadeBricks& bricks);
     void count_layer(const ShadeCasts& casts, const ShadeBricks& bricks, int y);
     void list_stretches(const ShadeBricks& bricks);

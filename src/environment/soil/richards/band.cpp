@@ -4,22 +4,12 @@
 
 namespace espalier::environment {
 
-SoilBand::SoilBand(const SoilRows& rows) : columns_(std::size_t(rows.grid().size().x) * rows.grid().size().z) {
-    const WaterGrid& grid = rows.grid();
-    const glm::ivec3 size = grid.size();
-    const auto place = [&](int x, int y, int z) { return (std::size_t(y) * size.z + z) * size.x + x; };
+SoilBand::SoilBand(const SoilRows& rows)
+    : rows_(rows), columns_(std::size_t(rows.grid().size().x) * rows.grid().size().z) {
+    const glm::ivec3 size = rows.grid().size();
     for (int y = 0; y < size.y; ++y) {
         for (int z = 0; z < size.z; ++z) {
-            for (int x = 0; x < size.x; ++x) {
-                const std::size_t cell = grid.cell({x, y, z}), own = cells_.size();
-                cells_.push_back(cell);
-                const auto face = [&](std::size_t axis, std::size_t next) {
-                    faces_.push_back({axis, cell, own, next});
-                };
-                if (x + 1 < size.x || rows.joined_x()) face(0, place((x + 1) % size.x, y, z));
-                if (y + 1 < size.y) face(1, place(x, y + 1, z));
-                if (z + 1 < size.z || rows.joined_z()) face(2, place(x, y, (z + 1) % size.z));
-            }
+            for (int x = 0; x < size.x; ++x) cells_.push_back(rows.grid().cell({x, y, z}));
         }
     }
     band_.resize(cells_.size() * width());
@@ -33,10 +23,19 @@ void SoilBand::factorise(const WaterBrick& diagonal, const std::array<const Face
 
 void SoilBand::set(const WaterBrick& diagonal, const std::array<const FaceCouplings*, 3>& faces) {
     std::fill(band_.begin(), band_.end(), 0.0);
-    for (std::size_t i = 0; i < cells_.size(); ++i) row(i)[columns_] = diagonal[cells_[i]];
-    for (const Face& face : faces_) {
-        row(face.own)[columns_ + face.next - face.own] += faces[face.axis]->by_next[face.cell];
-        row(face.next)[columns_ + face.own - face.next] -= faces[face.axis]->by_own[face.cell];
+    const glm::ivec3 size = rows_.grid().size();
+    const auto place = [&](int x, int y, int z) { return (std::size_t(y) * size.z + z) * size.x + x; };
+    for (std::size_t own = 0; own < cells_.size(); ++own) {
+        const std::size_t cell = cells_[own];
+        const auto [x, y, z] = std::array{int(own % size.x), int(own / columns_), int(own % columns_ / size.x)};
+        const auto join = [&](int axis, std::size_t next) {
+            row(own)[columns_ + next - own] += faces[axis]->by_next[cell];
+            row(next)[columns_ + own - next] -= faces[axis]->by_own[cell];
+        };
+        row(own)[columns_] += diagonal[cell];
+        if (x + 1 < size.x || rows_.joined_x()) join(0, place((x + 1) % size.x, y, z));
+        if (y + 1 < size.y) join(1, place(x, y + 1, z));
+        if (z + 1 < size.z || rows_.joined_z()) join(2, place(x, y, (z + 1) % size.z));
     }
 }
 
@@ -54,7 +53,7 @@ void SoilBand::eliminate() {
     }
 }
 
-void SoilBand::solve(const WaterBrick& r, WaterBrick& z) const {
+void SoilBand::solve(const WaterBrick& r, WaterBrick& z) {
     const std::size_t m = columns_, n = cells_.size();
     for (std::size_t i = 0; i < n; ++i) {
         double sum = r[cells_[i]];

@@ -13,33 +13,30 @@ namespace espalier::environment {
 /// in a soil's equations the diagonal outweighs the rest of its column.
 class SoilBand {
 public:
-    static constexpr int most_columns = 12;  ///< with more, iterations take less time
+    /// With more than twelve, iterations take less time; one alone needs no band.
+    static bool pays(double columns) { return columns > 1 && columns <= 12; }
+    static double bytes_per_voxel(double columns) { return 8 * (2 * columns + 3); }
 
     explicit SoilBand(const SoilRows& rows);
 
     /// Takes the coefficients of SoilMatrix and eliminates.
     void factorise(const WaterBrick& diagonal, const std::array<const FaceCouplings*, 3>& faces);
     /// Solves J z = r.
-    void solve(const WaterBrick& r, WaterBrick& z) const;
+    void solve(const WaterBrick& r, WaterBrick& z);
 
 private:
     void set(const WaterBrick& diagonal, const std::array<const FaceCouplings*, 3>& faces);
     void eliminate();
     double* row(std::size_t place) { return band_.data() + place * width(); }
-    const double* row(std::size_t place) const { return band_.data() + place * width(); }
     std::size_t width() const { return 2 * columns_ + 1; }
 
-    /// A face towards +x, +y or +z between two unknowns.
-    struct Face {
-        std::size_t axis, cell, own, next;  ///< the cell that has its couplings, and the places on both sides
-    };
+    SoilRows rows_;
     std::size_t columns_;
     std::vector<std::size_t> cells_;  ///< of the unknowns
-    std::vector<Face> faces_;
     /// For each unknown, the coefficients of those up to m places before and behind; once eliminated, those before are
     /// factors, and the diagonal is the reciprocal of its pivot.
     std::vector<double> band_;
-    mutable std::vector<double> solution_;
+    std::vector<double> solution_;
 };
 
 }  // namespace espalier::environment

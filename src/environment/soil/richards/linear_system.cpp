@@ -12,8 +12,7 @@ constexpr int few_iterations = 2;  ///< with columns alone: a cycle of multigrid
 
 SoilLinearSystem::SoilLinearSystem(const SoilRows& rows) : matrix_(rows), sums_(rows.grid().rows()) {
     for (WaterBrick* brick : {&r_, &r0_, &p_, &v_, &s_, &t_, &y_}) brick->assign(rows.grid().cells(), 0.0);
-    const int columns = rows.grid().size().x * rows.grid().size().z;
-    if (columns > 1 && columns <= SoilBand::most_columns) band_.emplace(rows);
+    if (const glm::ivec3 size = rows.grid().size(); SoilBand::pays(size.x * size.z)) band_.emplace(rows);
 }
 
 double SoilLinearSystem::dot(const WaterBrick& a, const WaterBrick& b) {

@@ -13,7 +13,12 @@
 namespace espalier::environment {
 namespace {
 
-constexpr double bytes_per_soil_voxel = 37 * 8 + 6 * 5 + 4;
+double bytes_per_soil_voxel(const SoilSpace& space) {
+    Box layer = space.domain;
+    layer.upper.y = layer.lower.y + space.voxel;
+    const double columns = WaterGrid::voxels_needed(layer, space.voxel, space.flat);
+    return 37 * 8 + 6 * 5 + 4 + (SoilBand::pays(columns) ? SoilBand::bytes_per_voxel(columns) : 0);
+}
 
 /// The layer of voxels on the soil in which ponding water is shown.
 WaterGrid layer_on(const WaterGrid& soil) {
@@ -27,7 +32,7 @@ class RichardsSoil final : public EnvironmentProcess, public SharedSoil {
 public:
     RichardsSoil(Settings& settings, const EnvironmentContext& context, Fields& fields, bool is_still)
         : parameters_(read_soil_parameters(settings, context, is_still, fields)),
-          grid_(parameters_.space.affordable_grid(context, bytes_per_soil_voxel)),
+          grid_(parameters_.space.affordable_grid(context, bytes_per_soil_voxel(parameters_.space))),
           solids_(parameters_.space),
           layout_((solids_.look(fields), SoilLayout(grid_, parameters_, solids_.free_voxels(grid_), fields))),
           soil_(layout_, parameters_),
@@ -110,7 +115,8 @@ public:
     Spreading spreading() const override { return Spreading::queries; }
 
     ProcessMemory memory() const override {
-        return {static_cast<std::size_t>(bytes_per_soil_voxel * static_cast<double>(grid_.voxels()))};
+        return {
+            static_cast<std::size_t>(bytes_per_soil_voxel(parameters_.space) * static_cast<double>(grid_.voxels()))};
     }
 
     void save(std::ostream& out) const override {
