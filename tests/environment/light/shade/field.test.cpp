@@ -254,6 +254,18 @@ TEST_CASE("pyramids count for the memory that the shade may take, not only their
     CHECK(message_of([&] { asked(enough, questions); }) == "");
 }
 
+TEST_CASE("heights between pyramids count for the memory, too", "[environment]") {
+    const std::vector<Asked> questions{Asked{glm::dvec3(0), {1}}, Asked{glm::dvec3(0, 1e6, 0), {1}}};
+    const auto grown_within = [&](std::size_t mebibytes) {
+        EnvironmentContext context;
+        context.memory = mebibytes << 20;
+        Environment environment = environment_of(plain, context);
+        return message_of([&] { asked(environment, questions); });
+    };
+    CHECK(lacks(grown_within(14), {"the shade of this step needs", "MiB"}) == "");
+    CHECK(grown_within(64) == "");
+}
+
 TEST_CASE("two plants far apart take the memory of two plants", "[environment]") {
     EnvironmentContext context;
     context.memory = std::size_t(24) << 20;  // a box around both would take 5 GiB

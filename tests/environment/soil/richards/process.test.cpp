@@ -129,6 +129,18 @@ TEST_CASE("mistakes in a soil are clear lines", "[environment][soil]") {
         "use larger voxels");
 }
 
+TEST_CASE("what solves few columns at once counts against the memory", "[environment][soil]") {
+    const auto bytes_of_voxel = [](int columns) {
+        Soil soil(
+            fmt::format("model = \"richards\"\ndomain = {{ lower = [0, -1, 0], upper = [{}, 0, 0] }}\n"
+                        "voxel = 0.02\nsoil = \"loam\"",
+                        0.02 * columns));
+        return static_cast<double>(soil.process->memory().held) / (50 * columns);
+    };
+    CHECK(bytes_of_voxel(12) - bytes_of_voxel(13) == 8 * 27);
+    CHECK(bytes_of_voxel(2) - bytes_of_voxel(1) == 8 * 7);
+}
+
 TEST_CASE("a query is told the pressure head and its gradient", "[environment][soil]") {
     Soil soil(bed);
     const std::vector<double> answer = soil.ask({{{0.01, -0.15, 0.03}, std::vector<double>(13, 0.0)}})[0];
