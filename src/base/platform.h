@@ -93,8 +93,8 @@ std::size_t peak_memory();
 
 /// From now on blocks of 1 MiB and more go back to the system when they are freed. By itself the GNU library raises
 /// this threshold up to 32 MiB, and columns that plants have outgrown lie unused between those that came later: up to a
-/// quarter of what a run held. Up to 16 MiB of small blocks stay, because each new page costs as much as some hundred
-/// of them.
+/// quarter of what a run held. Up to 16 MiB of small blocks stay: plants that come from disk would fetch the same pages
+/// again and again.
 void give_back_large_blocks();
 
 // --- this program ---------------------------------------------------------------------------------------------------
